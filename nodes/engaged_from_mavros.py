@@ -107,7 +107,7 @@ class Companion:
 
 def main():
     rospy.init_node("engaged_from_mavros")
-    modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])
+    modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])  # px4.launch and ardupilot.launch each say their own
     if not isinstance(modes, list) or not modes or not all(isinstance(mode, str) for mode in modes):
         print(f"engaged_from_mavros: ~modes is {modes!r}; give a list of mode names, e.g. [OFFBOARD]", file=sys.stderr)
         sys.exit(2)

@@ -181,7 +181,7 @@ CameraFrame World::draw(const Exposure& exposure) {
   frame.truth = exposure.truth;
   frame.T_camera_window = cameraInWindow(exposure).inverse();
   if (!camera_) return frame;
-  const auto motion = CameraMotion::of(exposure.shown, T_odom_window_, T_base_camera_);
+  const auto motion = CameraTruth::of(exposure.shown, T_odom_window_, T_base_camera_);
   frame.image = camera_->expose(motion, exposure.index, exposure.stamp_sec);
   spoil(frame.image, exposure, seed_);
   return frame;

@@ -102,7 +102,7 @@ class Flight {
 
  private:
   std::optional<evaluation::TrackResult> look(int index, double time_sec) {
-    const simulation::CameraMotion motion = path_.motion(time_sec);
+    const simulation::CameraTruth motion = path_.motion(time_sec);
     const double stamp_sec = kFirstStamp_sec + time_sec;
     const auto truth = evaluation::surveyTruth(scenario_, scene_, camera_, motion);
     detection::TrackInput input;

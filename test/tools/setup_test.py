@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shutil
 
 import pytest
 
@@ -109,3 +110,12 @@ def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
     done = call("bash", tmp_path / "dev/check_install")
     assert done.returncode == 1 and not done.stderr
     assert [file.name for file in (tmp_path / "build/ros").iterdir()] == ["CMakeCache.txt"]
+
+
+@pytest.mark.parametrize("command, said", [
+    (["run", "roslaunch", "window_ingress", "sim.launch"], "run: no nodes of window_ingress; is the package built? (scripts/build)\n"),
+    (["run", "fly"], "run: no tool, node or command 'fly'; is the package built? (scripts/build)\n")])
+def test_who_comes_too_early_is_told_what_comes_before(tmp_path, command, said):
+    shutil.copytree(SETUP.parent, tmp_path / "scripts")
+    done = call(tmp_path / "scripts" / command[0], *command[1:], env={"PATH": "/usr/bin:/bin", "HOME": str(tmp_path)})
+    assert done.returncode == 2 and done.stderr == said

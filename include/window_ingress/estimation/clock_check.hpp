@@ -6,23 +6,6 @@
 
 namespace window_ingress::estimation {
 
-/// Nothing is measured after it has arrived: stamps that are ahead of their arrival come from a clock that is
-/// ahead (PX4's behind MAVROS were seen 84 to 164 ms ahead of their arrival). The most that was seen is taken
-/// off every stamp. It fades slowly, since clocks drift.
-class SenderClock {
- public:
-  /// \return the stamp by the receiver's clock; a stamp or arrival that is not finite changes nothing
-  double atReceiver(double stamp_sec, double arrival_sec);
-  /// What is taken off: 0 up to `kUsualSec`, which a clock that comes in ticks explains.
-  double aheadSec() const { return ahead_sec_ > kUsualSec ? ahead_sec_ : 0.0; }
-  void clear() { *this = SenderClock(); }
-
-  static constexpr double kUsualSec = 0.02, kMaxSec = 0.5;
-
- private:
-  double ahead_sec_ = 0.0, arrival_sec_ = 0.0;
-};
-
 /// By how much the stamps of images and those of odometry differ. While a vehicle turns at w, odometry at a
 /// stamp that is late by d has turned on by w d: the direction in which a window that stands still is seen
 /// moves by as much. The slope of that over the rate is d. It needs a turn that begins or ends while the
@@ -39,6 +22,8 @@ class ClockCheck {
   struct Offset {
     double late_sec = 0.0;  ///< stamps of images beside those of odometry; negative: early
     double sigma_sec = 0.0;
+    /// Somebody's clock or driver is wrong by it.
+    bool isTooLarge() const;
   };
 
   /// Not finite: ignored; a stamp that is not later than the last one starts a new stretch.

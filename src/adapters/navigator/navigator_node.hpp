@@ -18,13 +18,15 @@
 #include "adapters/inputs/clock_watch.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/markers/flight_markers.hpp"
+#include "adapters/navigator/engaged_freshness.hpp"
+#include "adapters/navigator/guard_monitor.hpp"
 #include "adapters/navigator/mission_action.hpp"
-#include "adapters/navigator/other_nodes.hpp"
+#include "adapters/navigator/upstream_faults.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/run_node.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
-#include "window_ingress/estimation/clock_check.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::adapters {

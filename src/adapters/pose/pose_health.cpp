@@ -17,7 +17,6 @@ Health framesHealth(const estimation::FramesVerdict& frames) {
 
 Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry) {
-  constexpr double kMaxOffsetSec = 0.05, kSigmas = 3.0;
   std::string ahead;
   if (odometry.aheadSec() > 0.0)
     ahead = formatted("; odometry is stamped %.2f s ahead of its arrival, which is taken off",
@@ -26,8 +25,7 @@ Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
   const std::string text =
       formatted("images are stamped %.2f +- %.2f s %s beside odometry", std::abs(offset->late_sec),
                 offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
-  const double least_sec = std::max(kMaxOffsetSec, kSigmas * offset->sigma_sec);
-  if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};
+  if (!offset->isTooLarge()) return {Health::kOk, text + ahead};
   return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
 }
 

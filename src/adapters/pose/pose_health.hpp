@@ -11,6 +11,7 @@
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/frames_verdict.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 

@@ -24,7 +24,7 @@
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/run_node.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
-#include "window_ingress/estimation/clock_check.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::adapters {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/perception/window_perception.hpp"

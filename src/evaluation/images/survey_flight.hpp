@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/camera/camera_motion.hpp"
+#include "simulation/camera/camera_truth.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -56,10 +56,10 @@ class SurveyFlight {
   }
 
   /// Velocities by central differences.
-  simulation::CameraMotion motion(double time_sec) const {
+  simulation::CameraTruth motion(double time_sec) const {
     const Eigen::Isometry3d before = T_window_camera(time_sec - kDifference_sec);
     const Eigen::Isometry3d after = T_window_camera(time_sec + kDifference_sec);
-    simulation::CameraMotion motion;
+    simulation::CameraTruth motion;
     motion.T_window_camera = T_window_camera(time_sec);
     motion.velocity_window_mps = (after.translation() - before.translation()) / (2.0 * kDifference_sec);
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(before.linear().transpose() * after.linear()));

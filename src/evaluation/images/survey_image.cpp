@@ -87,7 +87,7 @@ constexpr double kSettling = 60.0;  // time constants of the automatic gains bet
 
 // The gains follow what the image before showed: once the time between is long, they have settled.
 cv::Mat expose(const simulation::Scenario& scenario, const simulation::Scene& scene,
-               const simulation::CameraMotion& motion, std::uint32_t seed) {
+               const simulation::CameraTruth& motion, std::uint32_t seed) {
   simulation::CameraSensor sensor(scene, scenario.camera, seed);
   const bool automatic = scenario.camera.auto_exposure || scenario.camera.auto_white_balance;
   if (automatic) sensor.expose(motion, 0, 0.0);
@@ -109,7 +109,7 @@ bool borderIsFree(const simulation::Mesh& mesh, const Vector3d& eye, const geome
 }
 
 std::optional<geometry::Quadrilateral> projectMoving(const geometry::PinholeCamera& camera,
-                                                     const simulation::CameraMotion& motion,
+                                                     const simulation::CameraTruth& motion,
                                                      double readout_sec, const geometry::OpeningSize& size,
                                                      double behind_m) {
   const auto corners = geometry::openingCorners(size);
@@ -143,7 +143,7 @@ SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scen
 
 std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, const simulation::Scene& scene,
                                        const geometry::PinholeCamera& camera,
-                                       const simulation::CameraMotion& motion) {
+                                       const simulation::CameraTruth& motion) {
   const auto project = [&](const geometry::OpeningSize& size, double behind_m) {
     return projectMoving(camera, motion, scenario.camera.readout_sec, size, behind_m);
   };

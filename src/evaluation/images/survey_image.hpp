@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "simulation/camera/camera_motion.hpp"
+#include "simulation/camera/camera_truth.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scene/scene.hpp"
@@ -27,7 +27,7 @@ struct ViewRange {
 /// A view of the window: where the camera is, and how it moves while it exposes.
 struct SurveyView {
   double distance_m = 0.0, off_axis_rad = 0.0;
-  simulation::CameraMotion motion;
+  simulation::CameraTruth motion;
 };
 
 /// Draws a view as a flight has it: 0.4 m above or below the opening's centre at most, tilted and rolled by
@@ -45,7 +45,7 @@ bool borderIsFree(const simulation::Mesh& mesh, const Eigen::Vector3d& eye,
 /// Image of a rectangle `behind_m` behind the plane of the window, around the same axis, as the shutter sees
 /// it: each corner at the time at which its row is exposed.
 std::optional<geometry::Quadrilateral> projectMoving(const geometry::PinholeCamera& camera,
-                                                     const simulation::CameraMotion& motion,
+                                                     const simulation::CameraTruth& motion,
                                                      double readout_sec, const geometry::OpeningSize& size,
                                                      double behind_m);
 
@@ -60,7 +60,7 @@ struct SurveyTruth {
 /// Nothing unless all of the front inner border lies before the camera.
 std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, const simulation::Scene& scene,
                                        const geometry::PinholeCamera& camera,
-                                       const simulation::CameraMotion& motion);
+                                       const simulation::CameraTruth& motion);
 
 /// One image with all that is known about it.
 struct SurveyImage {

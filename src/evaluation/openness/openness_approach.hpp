@@ -20,7 +20,7 @@ class OpennessApproach {
 
   int steps() const;
   double timeSec(int step) const { return kFirstStamp_sec + step / range_.rate_hz; }
-  simulation::CameraMotion motion(int step) const { return flight_.motion(step / range_.rate_hz); }
+  simulation::CameraTruth motion(int step) const { return flight_.motion(step / range_.rate_hz); }
 
   /// The opening's border as a detector sees it, with noise. Nothing if it is not whole in the image.
   /// \param grown by so much of its size the border seen is larger than the true one

@@ -44,7 +44,7 @@ CameraSensor::CameraSensor(const Scene& scene, const CameraParams& params, std::
     renderers_.push_back(std::make_unique<Renderer>(scene, plane.camera, antialiasingOf(params)));
 }
 
-void CameraSensor::takeIdeal(const CameraMotion& motion) {
+void CameraSensor::takeIdeal(const CameraTruth& motion) {
   const auto& planes = lens_.planes();
   if (planes.size() == 1) return shutter_.take(*renderers_[0], planes[0].camera, motion, ideal_);
   ideal_.create(lens_.idealSize(), CV_8UC3);
@@ -54,7 +54,7 @@ void CameraSensor::takeIdeal(const CameraMotion& motion) {
   }
 }
 
-cv::Mat CameraSensor::expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec) {
+cv::Mat CameraSensor::expose(const CameraTruth& motion, std::uint64_t index, double stamp_sec) {
   takeIdeal(motion);
   lens_.distort(ideal_, image_);
   if (blur_px_ > 0.0) cv::GaussianBlur(image_, image_, cv::Size(), blur_px_);

@@ -6,10 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/camera/camera_motion.hpp"
 #include "simulation/camera/camera_noise.hpp"
-#include "simulation/camera/exposure.hpp"
+#include "simulation/camera/camera_truth.hpp"
+#include "simulation/camera/exposure_control.hpp"
 #include "simulation/camera/lens.hpp"
+#include "simulation/camera/shutter.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scene/scene.hpp"
@@ -25,10 +26,10 @@ class CameraSensor {
 
   /// The image number `index` of the flight; the noise depends on seed and index alone, automatic gains on
   /// the images exposed before. The image is valid until the next call.
-  cv::Mat expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec);
+  cv::Mat expose(const CameraTruth& motion, std::uint64_t index, double stamp_sec);
 
  private:
-  void takeIdeal(const CameraMotion& motion);
+  void takeIdeal(const CameraTruth& motion);
 
   double blur_px_;
   Lens lens_;

@@ -1,10 +1,10 @@
+#include "window_ingress/estimation/sender_clock.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "window_ingress/estimation/clock_check.hpp"
 
 namespace window_ingress::estimation::sender_clock_test {
 

@@ -1,9 +1,9 @@
+#include "adapters/navigator/engaged_freshness.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
-
-#include "adapters/navigator/other_nodes.hpp"
 
 namespace window_ingress::adapters::engaged_freshness_test {
 

@@ -86,7 +86,7 @@ TEST(SurveyView, AnythingBeforeTheBorderHidesIt) {
 
 TEST(SurveyView, ShutterSeesEachCornerInItsRowsTime) {
   const auto camera = kScenario.camera.model();
-  simulation::CameraMotion motion;
+  simulation::CameraTruth motion;
   motion.T_window_camera =
       geometry::makePose(geometry::R_optical_flu().transpose(), Vector3d(-4.0, 0.0, 0.0));
   motion.velocity_window_mps = {0.0, 1.0, 0.0};

@@ -34,8 +34,8 @@ CameraParams plain() {
   return params;
 }
 
-CameraMotion standingAt(double distance_m, double y_m = 0.0, double z_m = 0.0) {
-  CameraMotion motion;
+CameraTruth standingAt(double distance_m, double y_m = 0.0, double z_m = 0.0) {
+  CameraTruth motion;
   motion.T_window_camera = geometry::makePose(geometry::R_optical_flu().transpose(), {-distance_m, y_m, z_m});
   return motion;
 }
@@ -67,12 +67,12 @@ double leftBorder(const geometry::PinholeCamera& camera, const Eigen::Isometry3d
   return camera.project(T_camera_window * Eigen::Vector3d(0.0, 0.6, z_m))->x();
 }
 
-TEST(CameraMotion, TurnedItIsThatOfACameraAtTheSamePlace) {
-  CameraMotion motion = standingAt(2.0, 0.3, -0.2);
+TEST(CameraTruth, TurnedItIsThatOfACameraAtTheSamePlace) {
+  CameraTruth motion = standingAt(2.0, 0.3, -0.2);
   motion.velocity_window_mps = {0.8, -0.3, 0.2};
   motion.angular_velocity_camera_radps = {0.3, -1.2, 0.4};
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  const CameraMotion turned = motion.turned(R);
+  const CameraTruth turned = motion.turned(R);
   for (const double after_sec : {-0.05, 0.0, 0.05}) {
     Eigen::Isometry3d expected = motion.T_camera_window(after_sec);
     expected.prerotate(R);
@@ -96,7 +96,7 @@ TEST(CameraSensor, MotionSmearsAnEdgeBySpeedTimesExposureAroundTheMiddlePose) {
   params.exposure_sec = 0.010;
   CameraSensor camera(scene, params, 1);
   for (const double speed_mps : {2.5, -2.5, 5.0}) {
-    CameraMotion motion = standingAt(4.0);
+    CameraTruth motion = standingAt(4.0);
     motion.velocity_window_mps = {0.0, speed_mps, 0.0};
     const double u = leftBorder(params.model(), motion.T_camera_window(0.0));
     const Edge edge = edgeIn(greyOf(camera.expose(motion, 0, 0.0)), 240, u, 12);
@@ -109,7 +109,7 @@ TEST(CameraSensor, MotionSmearsAnEdgeBySpeedTimesExposureAroundTheMiddlePose) {
 TEST(CameraSensor, StandingCamerasAndThoseWithoutExposureTimeSmearNothing) {
   const Scene scene = buildScene(blackAndWhite());
   CameraParams params = plain();
-  CameraMotion moving = standingAt(4.0);
+  CameraTruth moving = standingAt(4.0);
   moving.velocity_window_mps = {0.0, 3.0, 0.0};
   const cv::Mat instant = CameraSensor(scene, params, 1).expose(moving, 0, 0.0).clone();
   const cv::Mat reference = CameraSensor(scene, params, 1).expose(standingAt(4.0), 0, 0.0).clone();
@@ -126,7 +126,7 @@ TEST(CameraSensor, RollingShutterLeansAnEdgeByTheYawRateWithTheMiddleRowInPlace)
   CameraSensor camera(scene, params, 1);
   const geometry::PinholeCamera model = params.model();
   for (const double rate_radps : {1.0, -0.6}) {
-    CameraMotion motion = standingAt(3.0);
+    CameraTruth motion = standingAt(3.0);
     motion.angular_velocity_camera_radps = {0.0, rate_radps, 0.0};
     const cv::Mat grey = greyOf(camera.expose(motion, 0, 0.0));
     for (const int v : {180, 210, 270, 300}) {
@@ -154,7 +154,7 @@ TEST(CameraSensor, BlurMovesNoCorner) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int corners = 0;
   for (double distance_m = 2.5; distance_m < 6.0; distance_m += 0.37) {
-    const CameraMotion motion = standingAt(distance_m, 0.3 * std::sin(9.0 * distance_m), 0.1);
+    const CameraTruth motion = standingAt(distance_m, 0.3 * std::sin(9.0 * distance_m), 0.1);
     const cv::Mat grey = greyOf(camera.expose(motion, 0, 0.0));
     const auto bent = geometry::projectOpening(model, motion.T_camera_window(0.0), scenario.opening());
     const auto expected = geometry::projectOpening(straight, motion.T_camera_window(0.0), scenario.opening());

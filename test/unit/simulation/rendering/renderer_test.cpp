@@ -169,7 +169,7 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersThroughAFisheyeOf150Degrees) 
     turn.z() = random.uniform(-1.2, 1.2), turn.y() = random.uniform(-0.8, 0.8);
     turn.x() = random.uniform(-0.2, 0.2);
     const double up_m = random.uniform(-0.4, 0.4), azimuth_rad = random.uniform(-0.5, 0.5);
-    CameraMotion motion;
+    CameraTruth motion;
     const auto T_camera_window = lookingFrom(random.uniform(0.8, 3.0), azimuth_rad, up_m, turn);
     motion.T_window_camera = T_camera_window.inverse();
     const auto expected = geometry::projectOpening(camera, T_camera_window, scenario.opening());

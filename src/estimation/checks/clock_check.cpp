@@ -8,8 +8,6 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kFadesSecPerSec = 2e-4;  // beyond any quartz, little in a flight
-
 constexpr double kStretchSec = 2.0, kLongestGapSec = 0.5;
 constexpr std::size_t kMinSights = 10, kMaxSights = 400;
 constexpr double kMinRateSpread = 0.08;   // rad/s, root mean square about the mean
@@ -18,6 +16,7 @@ constexpr double kCorrelated = 4.0;       // so many sights err alike
 constexpr double kModelSigmaSec = 0.015;  // of one stretch: the rate is that of a moment before
 constexpr double kStrayRad = 0.3;         // no offset moves a window so far
 constexpr double kMaxWeight = 10.0;       // stretches; older ones are forgotten
+constexpr double kMaxOffsetSec = 0.05, kMaxSigmas = 3.0;
 
 bool isFinite(const ClockCheck::Sight& sight) {
   return std::isfinite(sight.stamp_sec) && sight.camera_odom_m.allFinite() &&
@@ -26,13 +25,8 @@ bool isFinite(const ClockCheck::Sight& sight) {
 
 }  // namespace
 
-double SenderClock::atReceiver(double stamp_sec, double arrival_sec) {
-  const double ahead_sec = stamp_sec - arrival_sec;
-  if (!std::isfinite(ahead_sec) || ahead_sec > kMaxSec) return stamp_sec;
-  const double elapsed_sec = std::clamp(arrival_sec - arrival_sec_, 0.0, 1.0);
-  arrival_sec_ = arrival_sec;
-  ahead_sec_ = std::max({0.0, ahead_sec_ - kFadesSecPerSec * elapsed_sec, ahead_sec});
-  return stamp_sec - aheadSec();
+bool ClockCheck::Offset::isTooLarge() const {
+  return std::abs(late_sec) > std::max(kMaxOffsetSec, kMaxSigmas * sigma_sec);
 }
 
 void ClockCheck::see(const Sight& sight, const Eigen::Vector2d& window_odom_m) {

@@ -9,17 +9,17 @@ namespace window_ingress::simulation {
 
 /// Where the camera is at an image's stamp and how it moves then. For the few milliseconds around it the
 /// velocities are constant.
-struct CameraMotion {
+struct CameraTruth {
   Eigen::Isometry3d T_window_camera = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_window_mps = Eigen::Vector3d::Zero();  ///< of the camera's centre
   Eigen::Vector3d angular_velocity_camera_radps = Eigen::Vector3d::Zero();
 
   /// Of a camera on a vehicle; `T_odom_window` from the same odom axes as `truth`.
-  static CameraMotion of(const VehicleTruth& truth, const Eigen::Isometry3d& T_odom_window,
-                         const Eigen::Isometry3d& T_base_camera);
+  static CameraTruth of(const VehicleTruth& truth, const Eigen::Isometry3d& T_odom_window,
+                        const Eigen::Isometry3d& T_base_camera);
 
   /// Of a camera at the same place with axes of its own.
-  CameraMotion turned(const Eigen::Matrix3d& R_turned_camera) const;
+  CameraTruth turned(const Eigen::Matrix3d& R_turned_camera) const;
 
   /// So long after the stamp, or before it if negative.
   Eigen::Isometry3d T_camera_window(double after_sec) const;

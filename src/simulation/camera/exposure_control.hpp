@@ -1,57 +1,12 @@
-/// How an image is exposed: shutter, gain and white balance.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "simulation/camera/camera_motion.hpp"
-#include "simulation/rendering/renderer.hpp"
 #include "simulation/scenario/sensor_params.hpp"
 
 namespace window_ingress::simulation {
-
-/// Images by a camera that moves while it takes them: the mean of several over the time in which the
-/// shutter is open, row by row as they are read out. The middle row's middle of exposure is the motion's
-/// stamp. Few images are drawn when little moves, one when nothing does.
-class Shutter {
- public:
-  static constexpr int kMaxImages = 6;
-  static constexpr int kMaxBands = 24;
-  static constexpr double kShiftOfImage_px = 1.5;  ///< between two images
-  static constexpr double kShiftOfBand_px = 0.75;  ///< between two bands of rows
-
-  Shutter(double exposure_sec, double readout_sec) : exposure_sec_(exposure_sec), readout_sec_(readout_sec) {}
-
-  void take(Renderer& renderer, const geometry::PinholeCamera& camera, const CameraMotion& motion,
-            cv::Mat& image) {
-    const int images = countFor(motion.greatestShift(camera, exposure_sec_) / kShiftOfImage_px, kMaxImages);
-    const int bands = countFor(motion.greatestShift(camera, readout_sec_) / kShiftOfBand_px, kMaxBands);
-    for (int k = 0; k < images; ++k) {
-      const double in_exposure_sec = ((k + 0.5) / images - 0.5) * exposure_sec_;
-      cv::Mat& target = images == 1 ? image : one_;
-      for (int band = 0; band < bands; ++band) {
-        const cv::Range rows(band * camera.height / bands, (band + 1) * camera.height / bands);
-        const double in_readout_sec = (0.5 * (rows.start + rows.end) / camera.height - 0.5) * readout_sec_;
-        renderer.renderRows(motion.T_camera_window(in_exposure_sec + in_readout_sec), rows, target);
-      }
-      if (images == 1) return;
-      if (k == 0)
-        one_.convertTo(sum_, CV_16U);
-      else
-        cv::add(sum_, one_, sum_, cv::noArray(), CV_16U);
-    }
-    sum_.convertTo(image, CV_8U, 1.0 / images);
-  }
-
- private:
-  static int countFor(double shifts, int most) {
-    return std::clamp(static_cast<int>(std::ceil(shifts)), 1, most);
-  }
-
-  double exposure_sec_, readout_sec_;
-  cv::Mat one_, sum_;
-};
 
 /// Brightness and colour: gain and white balance, fixed or automatic with a lag. The automatic ones follow
 /// what the images before this one needed, exponentially in the logarithm of the gains.

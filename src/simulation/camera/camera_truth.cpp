@@ -1,4 +1,4 @@
-#include "simulation/camera/camera_motion.hpp"
+#include "simulation/camera/camera_truth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@ constexpr double kMinDepth_m = 0.5;
 
 }  // namespace
 
-CameraMotion CameraMotion::of(const VehicleTruth& truth, const Eigen::Isometry3d& T_odom_window,
-                              const Eigen::Isometry3d& T_base_camera) {
-  CameraMotion motion;
+CameraTruth CameraTruth::of(const VehicleTruth& truth, const Eigen::Isometry3d& T_odom_window,
+                            const Eigen::Isometry3d& T_base_camera) {
+  CameraTruth motion;
   motion.T_window_camera = T_odom_window.inverse() * truth.T_odom_base * T_base_camera;
   const Eigen::Vector3d& turn = truth.angular_velocity_base_radps;
   const Eigen::Vector3d lever = truth.T_odom_base.linear() * turn.cross(T_base_camera.translation());
@@ -21,14 +21,14 @@ CameraMotion CameraMotion::of(const VehicleTruth& truth, const Eigen::Isometry3d
   return motion;
 }
 
-CameraMotion CameraMotion::turned(const Eigen::Matrix3d& R_turned_camera) const {
-  CameraMotion motion = *this;
+CameraTruth CameraTruth::turned(const Eigen::Matrix3d& R_turned_camera) const {
+  CameraTruth motion = *this;
   motion.T_window_camera.rotate(R_turned_camera.transpose());
   motion.angular_velocity_camera_radps = R_turned_camera * angular_velocity_camera_radps;
   return motion;
 }
 
-Eigen::Isometry3d CameraMotion::T_camera_window(double after_sec) const {
+Eigen::Isometry3d CameraTruth::T_camera_window(double after_sec) const {
   Eigen::Isometry3d pose = T_window_camera;
   pose.translation() += after_sec * velocity_window_mps;
   const Eigen::Vector3d turn = after_sec * angular_velocity_camera_radps;
@@ -36,7 +36,7 @@ Eigen::Isometry3d CameraMotion::T_camera_window(double after_sec) const {
   return pose.inverse();
 }
 
-double CameraMotion::greatestShift(const geometry::PinholeCamera& camera, double duration_sec) const {
+double CameraTruth::greatestShift(const geometry::PinholeCamera& camera, double duration_sec) const {
   const double depth_m = std::max(kMinDepth_m, std::abs(T_window_camera.translation().x()));
   const Eigen::Vector3d velocity = T_window_camera.linear().transpose() * velocity_window_mps / depth_m;
   const Eigen::Vector3d& turn = angular_velocity_camera_radps;

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+
+#include "adapters/runtime/diagnostics.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::EngagementParams;
+
+/// Whether the vehicle follows setpoints: armed, and in a mode that does. Where nobody says so it is taken
+/// to, unless that is `required`; once anybody has said anything, only a recent yes is a yes. Times are those
+/// of the steady clock.
+class EngagedFreshness {
+ public:
+  /// Nodes that say it may start a little later, and speak once a second [s].
+  static constexpr double kGraceSec = 3.0;
+
+  explicit EngagedFreshness(const EngagementParams& params, double started_sec = steadyNowSec())
+      : params_(params), started_sec_(started_sec) {}
+
+  void hear(bool engaged, double now_sec) {
+    heard_ = true;
+    engaged_ = engaged;
+    heard_sec_ = now_sec;
+  }
+
+  bool holds(double now_sec) const {
+    if (!heard_) return !params_.required;
+    return engaged_ && !isSilent(now_sec);
+  }
+
+  /// \param topic where it is said, for people
+  Health health(const std::string& topic, double now_sec) const {
+    if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
+      return {Health::kOk, "waiting for " + topic};
+    if (!heard_ && params_.required)
+      return {Health::kError, "nothing on " + topic + " yet, and engagement/required: no mission can start"};
+    if (!heard_) return {Health::kOk, "nothing on " + topic + ": taken to follow setpoints"};
+    if (isSilent(now_sec)) return {Health::kError, topic + " has fallen silent: taken to be out of control"};
+    return {Health::kOk,
+            engaged_ ? "follows setpoints" : "not armed, or not in a mode that follows setpoints"};
+  }
+
+ private:
+  bool isSilent(double now_sec) const { return !(now_sec - heard_sec_ <= params_.max_silence_sec); }
+
+  EngagementParams params_;
+  double started_sec_;
+  bool heard_ = false, engaged_ = false;
+  double heard_sec_ = 0.0;
+};
+
+}  // namespace window_ingress::adapters

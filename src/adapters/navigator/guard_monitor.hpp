@@ -1,0 +1,77 @@
+#pragma once
+
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/node_handle.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/navigator/engaged_freshness.hpp"
+#include "adapters/runtime/diagnostics.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
+
+namespace window_ingress::adapters {
+
+/// The navigator's eye on the guard, as the guard has one on the navigator: what reaches the autopilot is
+/// heard on `passed_on`. While nobody passes anything on, the navigator itself sends the autopilot zeros, and
+/// nothing but zeros, for an autopilot that hears nothing flies its last velocity on for seconds. Times are
+/// those of the steady clock.
+class GuardMonitor {
+ public:
+  GuardMonitor(ros::NodeHandle& nh, Diagnostics& diagnostics, const configuration::GuardMonitorParams& params)
+      : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
+    subscriber_ = subscribeCatching<Setpoint>(nh_, kTopic, 1, diagnostics, [this](const auto&) { hear(); });
+    diagnostics.add(kTopic, [this] { return health(); });
+  }
+
+  /// Where nobody has been heard so far they are taken to be, unless that is `required`.
+  bool passesOn() const {
+    if (std::isinf(heard_sec_)) return !params_.required;
+    return steadyNowSec() - heard_sec_ <= params_.max_silence_sec;
+  }
+
+  void sent() { sent_sec_ = steadyNowSec(); }  ///< there is something to pass on
+  /// Zeros past the guard, if it does not pass them on; to be called in each step of a mission.
+  void brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
+    if (passesOn()) return;
+    if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
+    Setpoint zero;
+    zero.header = headerOf(now, frame);
+    brake_.publish(zero);
+  }
+
+ private:
+  using Setpoint = geometry_msgs::TwistStamped;
+  static constexpr const char* kTopic = "passed_on";
+
+  void hear() {
+    heard_sec_ = steadyNowSec();
+    if (brake_) brake_.shutdown();
+    brake_ = ros::Publisher();
+  }
+
+  Health health() const {
+    const std::string topic = subscriber_.getTopic();
+    if (passesOn() && std::isinf(heard_sec_))
+      return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
+    if (passesOn()) return {};
+    if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
+      return {Health::kOk, "no setpoints are sent: nothing to pass on"};
+    if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= EngagedFreshness::kGraceSec)
+      return {Health::kOk, "waiting for " + topic};
+    return {Health::kError,
+            "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};
+  }
+
+  ros::NodeHandle nh_;
+  configuration::GuardMonitorParams params_;
+  double started_sec_;
+  double sent_sec_ = -std::numeric_limits<double>::infinity();
+  double heard_sec_ = -std::numeric_limits<double>::infinity();
+  ros::Subscriber subscriber_;
+  ros::Publisher brake_;  ///< only while it is needed: otherwise the autopilot hears the guard alone
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/node_handle.h>
+#include <ros/this_node.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "adapters/runtime/diagnostics.hpp"
+
+namespace window_ingress::adapters {
+
+/// What detector and pose node lack, heard on /diagnostics: the navigator does not see images itself, and is
+/// asked why it does not start.
+class UpstreamFaults {
+ public:
+  UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
+    subscriber_ = subscribeCatching<diagnostic_msgs::DiagnosticArray>(
+        nh, "/diagnostics", 20, diagnostics, [this](const auto& message) { hear(*message); });
+  }
+
+  /// One for each input that is missing now.
+  std::vector<std::string> texts() const {
+    std::vector<std::string> texts;
+    for (const char* input : kInputs) {
+      const auto fault = faults_.find(input);
+      if (fault != faults_.end() && steadyNowSec() - fault->second.heard_sec < kForgottenSec)
+        texts.push_back(fault->second.text);
+    }
+    return texts;
+  }
+
+ private:
+  static constexpr double kForgottenSec = 3.0;  // diagnostics come once a second
+  static constexpr std::size_t kLongestText = 200;
+  static constexpr const char* kInputs[] = {"window_detector: image", "window_detector: camera_info",
+                                            "homography_pose: imu"};
+
+  struct Fault {
+    double heard_sec;  ///< on the steady clock
+    std::string text;
+  };
+  void hear(const diagnostic_msgs::DiagnosticArray& message) {
+    const std::string& space = ros::this_node::getNamespace();
+    const std::string own = space.size() > 1 ? space.substr(1) + "/" : "";
+    for (const auto& status : message.status)
+      for (const char* input : kInputs)
+        if (status.name == own + input) {
+          faults_.erase(input);
+          if (status.level >= diagnostic_msgs::DiagnosticStatus::ERROR)
+            faults_[input] = {steadyNowSec(), status.message.substr(0, kLongestText)};
+        }
+  }
+
+  std::map<std::string, Fault> faults_;  // by the name of the status
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,47 @@
+"""Whether the camera is calibrated, and where it sits: a part of doctor."""
+from ingress_tools.remedies import REMEDIES, remedy
+
+LOOKS_FORWARD = 0.7  # least part of an axis: some 45 degrees
+
+
+def check_calibration(system, report):
+    topic = system.input("window_detector", "sensor_msgs/CameraInfo")
+    image = system.input("window_detector", "sensor_msgs/Image")
+    info = system.infos.get(topic)
+    if not info:
+        return
+    size = system.samples[image].image_size() if image else None
+    calibrate = "calibrate the camera: doc/window.md"
+    if not any(info.K):
+        report.error(f"{topic}: not calibrated, K is all zero", calibrate, [topic])
+    elif size and size != (info.width, info.height):
+        report.error(f"{topic}: for {info.width}x{info.height}, the image on {image} has {size[0]}x{size[1]}", REMEDIES[4][1], [topic])
+    else:
+        report.ok(f"{topic}: calibrated, fx {info.K[0]:.1f} px, {info.width}x{info.height} as the image, frame {info.header.frame_id}")
+
+
+def check_mounting(system, report):
+    for frame, senders in system.transforms.contradictions().items():
+        report.error(f"tf: where {frame} is, {' and '.join(senders)} say differently: now the one counts, now the other",
+                     "let one of them say it: no camera_pose:= where another says it, one source of odometry in tf")
+    info = system.infos.get(system.input("homography_pose", "sensor_msgs/CameraInfo"))
+    base = system.parameter("vehicle", "base_frame", "base_link")
+    if not info:
+        return
+    camera = info.header.frame_id
+    T_base_camera = system.transforms.between(base, camera)
+    if T_base_camera is None and system.knows_mounting():
+        report.ok(f"tf: homography_pose knows {camera}; its transform was sent before doctor listened")
+        return
+    if T_base_camera is None:
+        known = ", ".join(system.transforms.frames()) or "none"
+        report.error(f"tf: no way from {base} to {camera}; frames there are: {known}", remedy("not in tf").replace("FRAME_OF_THE_IMAGES", camera),
+                     [camera])
+        return
+    forward, down = T_base_camera[:3, 2], T_base_camera[:3, 1]
+    at = ", ".join(f"{value:+.2f}" for value in T_base_camera[:3, 3])
+    if forward[0] < LOOKS_FORWARD or down[2] > -LOOKS_FORWARD:
+        report.error(f"tf: {camera} does not look forward: its z axis is ({forward[0]:+.2f}, {forward[1]:+.2f}, {forward[2]:+.2f}) in {base}; "
+                     "an optical frame has z forward, x right, y down", "give the optical frame, or camera_pose:=[x,y,z,yaw,pitch,roll]", [camera])
+    else:
+        report.ok(f"tf: {camera} at ({at}) m in {base}, looks forward")
