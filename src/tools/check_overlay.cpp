@@ -167,6 +167,17 @@ void checkOpeningIsSaid(const Options& o, const configuration::Overlay& overlay)
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
 }
 
+// A side that is not said is that of the default window.
+void checkBothSides(const configuration::Overlay& overlay) {
+  const bool width = says(overlay, "homography_pose/pose/", {"opening_width_m"});
+  const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
+  if (width == height) return;
+  const auto& pose = overlay.homography_pose.pose;
+  warn(formatted(
+      "of the opening only one side is said: homography_pose/pose/%s is missing, and taken for %g m",
+      width ? "opening_height_m" : "opening_width_m", width ? pose.opening_height_m : pose.opening_width_m));
+}
+
 // Nor, unsaid, by that of somebody else's vehicle.
 void checkVehicleIsSaid(const configuration::Overlay& overlay) {
   if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
@@ -257,6 +268,7 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
     checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
+  if (given(o.window_size).empty()) checkBothSides(overlay);
   const bool is_drone = o.needs_window_size == "true";
   if (is_drone) faults.collect([&] { checkOpeningIsSaid(o, overlay); });
   const bool by_hand = o.launch_folder.empty() && o.fly.empty();

@@ -392,6 +392,13 @@ def test_contradictions_are_said(tmp_path):
     assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == ""
 
 
+@pytest.mark.parametrize("side, other", [("width", "height"), ("height", "width")])
+def test_a_side_of_the_opening_that_is_not_said_is_named(tmp_path, side, other):
+    (tmp_path / "drone.yaml").write_text(f"homography_pose: {{pose: {{opening_{side}_m: 1.3}}}}")
+    done = run("check_overlay", tmp_path / "drone.yaml")
+    assert done.returncode == 0 and f"homography_pose/pose/opening_{other}_m is missing, and taken for 1" in done.stderr, done.stderr
+
+
 @pytest.mark.parametrize("size, is_said", [("1.4,2.0", True), ("2.0,0.8", True), ("2.0,1.4", False), ("1.8,1.4", False)])
 def test_a_size_that_is_not_that_of_the_reference_image_is_said(tmp_path, size, is_said):
     arguments = "--reference", photograph(tmp_path / "window.png"), "--reference-corners", "60,50,260,50,260,190,60,190"
