@@ -112,6 +112,7 @@ void FacadeMemory::yieldToBetterLook() {
   if (std::any_of(windows().begin(), windows().end(), is_better)) setTarget(0, false);
 }
 
+// Not what a person chose.
 void FacadeMemory::releaseIfGone(const FacadeView& view) {
   const double elapsed_sec =
       std::clamp(view.stamp_sec - last_view_sec_.value_or(view.stamp_sec), 0.0, kLongestGapSec);
@@ -121,6 +122,7 @@ void FacadeMemory::releaseIfGone(const FacadeView& view) {
     missing_sec_ = 0.0;
   else if (expected(view.from))
     missing_sec_ += elapsed_sec;
+  if (is_chosen_ && !is_next_) return;
   if (missing_sec_ <= (is_next_ ? kNextReleaseSec : params_.release_sec)) return;
   if (!is_next_) return setTarget(0, false);
   ++map_.find(target_id_)->failures;

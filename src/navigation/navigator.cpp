@@ -22,6 +22,8 @@
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
+constexpr double kLostM =
+    1.0;  // set right in odometry: nobody knows any more how far the vehicle is from there
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -42,6 +44,7 @@ struct Navigator::Impl {
   std::unique_ptr<Behaviour> behaviour;  ///< of the state, if it has one
   std::string reason;
   MissionState memory;
+  std::optional<TargetEstimate> flown_at;  ///< by this mission or the last; where the vehicle may still be
   Setpoint last_setpoint;
   Home home;
   MissionClock clock;
@@ -62,7 +65,8 @@ struct Navigator::Impl {
   Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
   void change(State to, const std::string& why);
   Setpoint output(const Decision& decision, const Situation& situation);
-  std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
+  void rememberWindow(const Situation& situation);
+  void bringWindowToOdom();
   MeasuredVehicle measuredVehicle() const;
   void follow(const MissionPolicy& policy);
 };
@@ -121,6 +125,20 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
     memory.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
   }
+  rememberWindow(situation);
+}
+
+// A monitor that begins anew believes odometry as it is.
+void Navigator::Impl::bringWindowToOdom() {
+  if (flown_at)
+    flown_at->T_odom_window =
+        monitor.odometry().T_smooth_odom(clock.nowSec()).inverse() * flown_at->T_odom_window;
+}
+
+// Beyond its mission, as long as it is known where the vehicle is.
+void Navigator::Impl::rememberWindow(const Situation& situation) {
+  if ((state == State::kApproach || state == State::kCommit) && memory.trusted) flown_at = memory.trusted;
+  if (situation.vehicle_jumped || monitor.odometry().shiftM() > kLostM) flown_at.reset();
 }
 
 // A window once flown at is not exchanged for another one on the way, and none is flown at from behind.
@@ -188,11 +206,6 @@ Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situ
   return limiter.cutTo(limited);
 }
 
-std::vector<std::string> Navigator::Impl::unmet(const NavigatorInput& input, double at_sec) const {
-  InputMonitor judge = monitor;
-  return unmetToStart(judge.judge(input, at_sec), input.engaged, params);
-}
-
 Navigator::Navigator(const NavigatorParams& params) : impl_(new Impl(params)) {}
 Navigator::~Navigator() = default;
 
@@ -201,10 +214,13 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   if (self.isLive()) return {true, std::string("already flying: ") + toString(self.state)};
   if (isEnd(self.state))
     return {false, std::string("mission ended as ") + toString(self.state) + ": reset first"};
-  const auto faults = self.unmet(input, now_sec);
+  InputMonitor judge = self.monitor;
+  const Situation situation = judge.judge(input, now_sec);
+  const auto faults = unmetToStart(situation, input.engaged, self.flown_at, self.params);
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.follow(policy);
   self.memory = MissionState();
+  self.memory.was_near = self.flown_at && isUnderRoof(*situation.vehicle, *self.flown_at);
   self.observer.reset();
   self.turn.reset();
   self.home = Home();
@@ -232,6 +248,7 @@ Reply Navigator::reset() {
   if (self.state == State::kIdle) return {true, "already idle"};
   const auto to = next(self.state, Event::kReset);
   if (!to) return {false, std::string("flying: ") + toString(self.state) + "; abort first"};
+  self.bringWindowToOdom();
   self.monitor.reset();
   self.follow({});
   self.change(*to, self.waiting());

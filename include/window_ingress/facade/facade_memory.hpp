@@ -21,8 +21,8 @@ struct Answer {
 ///
 /// The target is the one that the operator chose, else the window that was followed until the filter had
 /// settled. It stays the target until it is given up, until another one is clearly more like the reference,
-/// or until its place was in view without it for `FacadeParams::release_sec` in all. While there is one, no
-/// other window is taken for it.
+/// or until its place was in view without it for `FacadeParams::release_sec` in all; one that the operator
+/// chose only if it is given up. While there is one, no other window is taken for it.
 class FacadeMemory {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range

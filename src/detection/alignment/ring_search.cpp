@@ -19,6 +19,8 @@ constexpr float kLeast = 0.25F;                           ///< correlation of a 
 constexpr double kSlopeNoise = 0.02;                      ///< of a slope of a logarithm [1/px]
 constexpr int kFewestShown = 3;                           ///< that the reference must show
 constexpr int kPeakPx = 5;
+constexpr int kFurthestPx = 2;           ///< that half a side may lie off its place, across
+constexpr double kLessLikelyApx = 0.02;  ///< for each pixel
 
 void greyOf(const cv::Mat& image, cv::Mat& grey) {
   if (image.channels() == 3)
@@ -81,20 +83,27 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
         cv::Rect(0, end.y, pattern_.width, kReach), cv::Rect(0, 0, kReach, pattern_.height)})
     if (const cv::Rect at = beside & seen; at.area() > 0)
       sides_.push_back({at, slopes_x_(at).clone(), slopes_y_(at).clone(),
-                        cv::norm(slopes_x_(at), cv::NORM_L2SQR) + cv::norm(slopes_y_(at), cv::NORM_L2SQR)});
+                        cv::norm(slopes_x_(at), cv::NORM_L2SQR) + cv::norm(slopes_y_(at), cv::NORM_L2SQR),
+                        beside.width > beside.height});
   if (sides_.size() < kFewestShown) forget();
+}
+
+// The slopes of this size of the image; false if it is smaller than the pattern.
+bool RingSearch::shrink(double factor) {
+  const cv::Size full = pyramid_.level(0).size();
+  const cv::Size size(static_cast<int>(full.width * factor), static_cast<int>(full.height * factor));
+  if (size.width < pattern_.width || size.height < pattern_.height) return false;
+  const int k = std::max(0, static_cast<int>(std::floor(-std::log2(factor))));
+  cv::resize(pyramid_.level(k), level_, size, 0, 0, cv::INTER_AREA);
+  readSlopes(level_);
+  return true;
 }
 
 // Of this size of the image with the pattern, at every place. Sides are small: sums are faster than
 // transforms.
 bool RingSearch::correlate(double factor) {
-  const cv::Size full = pyramid_.level(0).size();
-  const cv::Size size(static_cast<int>(full.width * factor), static_cast<int>(full.height * factor));
-  const cv::Size places(size.width - pattern_.width + 1, size.height - pattern_.height + 1);
-  if (places.width < 1 || places.height < 1) return false;
-  const int k = std::max(0, static_cast<int>(std::floor(-std::log2(factor))));
-  cv::resize(pyramid_.level(k), level_, size, 0, 0, cv::INTER_AREA);
-  readSlopes(level_);
+  if (!shrink(factor)) return false;
+  const cv::Size places(level_.cols - pattern_.width + 1, level_.rows - pattern_.height + 1);
   squares_ = slopes_x_.mul(slopes_x_) + slopes_y_.mul(slopes_y_);
   sum_ = cv::Mat::zeros(places, CV_32F);
   for (const Side& side : sides_) {
@@ -127,8 +136,76 @@ void RingSearch::takePeaks(double factor) {
                    bottom = top + opening_.height;
       places_.push_back(
           {{in_image(left, top), in_image(right, top), in_image(right, bottom), in_image(left, bottom)},
-           value});
+           value,
+           factor,
+           {column, row}});
     }
+}
+
+// Of a part of a side with what lies there in this size of the image.
+double RingSearch::likeness(const Side& side, const cv::Rect& part, const cv::Point& at) const {
+  const cv::Rect there = part + at;
+  if ((there & cv::Rect({0, 0}, slopes_x_.size())) != there) return -1.0;
+  const cv::Mat x = slopes_x_(there), y = slopes_y_(there);
+  const cv::Mat wanted_x = side.slopes_x(part), wanted_y = side.slopes_y(part);
+  const auto squares = [&](const cv::Mat& a, const cv::Mat& b) {
+    return cv::norm(a, cv::NORM_L2SQR) + cv::norm(b, cv::NORM_L2SQR) +
+           2.0 * kSlopeNoise * kSlopeNoise * part.area();
+  };
+  return (wanted_x.dot(x) + wanted_y.dot(y)) / std::sqrt(squares(x, y) * squares(wanted_x, wanted_y));
+}
+
+// How far a part of a side lies off across it where it fits best, between pixels by a parabola.
+double RingSearch::offAcross(const Side& side, const cv::Rect& part, const cv::Point& at) const {
+  std::array<double, 2 * kFurthestPx + 1> alike{};
+  for (int across = -kFurthestPx; across <= kFurthestPx; ++across) {
+    double best = -1.0;
+    for (int along = -1; along <= 1; ++along)
+      best = std::max(
+          best,
+          likeness(side, part, at + (side.is_level ? cv::Point(along, across) : cv::Point(across, along))));
+    alike[across + kFurthestPx] = best - kLessLikelyApx * std::abs(across);
+  }
+  const auto most = std::max_element(alike.begin(), alike.end());
+  const auto off = static_cast<double>(most - alike.begin()) - kFurthestPx;
+  if (most == alike.begin() || most + 1 == alike.end()) return off;
+  const double bend = most[-1] - 2.0 * most[0] + most[1];
+  return bend < 0.0 ? off + 0.5 * (most[-1] - most[1]) / bend : off;
+}
+
+// Through the middles of its halves, each where it fits best.
+RingSearch::Line RingSearch::settled(const Side& side, const cv::Point& at) const {
+  const int length = side.is_level ? side.at.width : side.at.height, half = length / 2;
+  std::array<double, 2> off{}, middle{};
+  for (int h = 0; h < 2; ++h) {
+    const int begin = h * half, size = h == 0 ? half : length - half;
+    const cv::Rect part =
+        side.is_level ? cv::Rect(begin, 0, size, side.at.height) : cv::Rect(0, begin, side.at.width, size);
+    off[h] = offAcross(side, part, at + side.at.tl());
+    middle[h] = (side.is_level ? side.at.x : side.at.y) + begin + 0.5 * size;
+  }
+  const double slope = (off[1] - off[0]) / (middle[1] - middle[0]);
+  return {off[0] - slope * middle[0], slope};
+}
+
+// Its four sides where they fit best.
+void RingSearch::settle(Place& place) {
+  if (sides_.size() != 4 || !shrink(place.factor)) return;
+  std::array<Line, 4> lines;
+  for (int i = 0; i < 4; ++i) lines[i] = settled(sides_[i], place.at);
+  const double left = 0.5 * (pattern_.width - opening_.width),
+               top = 0.5 * (pattern_.height - opening_.height);
+  lines[0].at0 += top, lines[2].at0 += top + opening_.height;
+  lines[3].at0 += left, lines[1].at0 += left + opening_.width;
+  const auto corner = [&](const Line& level, const Line& upright) {
+    const double x = (upright.slope * level.at0 + upright.at0) / (1.0 - upright.slope * level.slope);
+    const Eigen::Vector2d in_pattern(x, level.slope * x + level.at0);
+    return Eigen::Vector2d((in_pattern + Eigen::Vector2d(place.at.x, place.at.y)) / place.factor -
+                           Eigen::Vector2d(0.5, 0.5));
+  };
+  const geometry::Quadrilateral quad = {corner(lines[0], lines[3]), corner(lines[0], lines[1]),
+                                        corner(lines[2], lines[1]), corner(lines[2], lines[3])};
+  if (geometry::isFinite(quad) && geometry::isConvex(quad)) place.quad = quad;
 }
 
 const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most) {
@@ -149,6 +226,7 @@ const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std:
       places_[kept++] = places_[i];
   }
   places_.resize(kept);
+  for (Place& place : places_) settle(place);
   return places_;
 }
 

@@ -16,6 +16,8 @@ class RingSearch {
   struct Place {
     geometry::Quadrilateral quad;  ///< pixels of the image
     double correlation;            ///< mean of the sides'
+    double factor;                 ///< by which the image is made smaller there
+    cv::Point at;                  ///< of the pattern in that
   };
 
   /// \param image CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels
@@ -33,9 +35,19 @@ class RingSearch {
     cv::Rect at;  ///< in the pattern
     cv::Mat slopes_x, slopes_y;
     double squares;  ///< their sum
+    bool is_level;   ///< top or bottom
+  };
+  /// Across a side, from the pattern's corner on [px].
+  struct Line {
+    double at0, slope;
   };
   void readSlopes(const cv::Mat& grey);
+  bool shrink(double factor);
   bool correlate(double factor);
+  double likeness(const Side& side, const cv::Rect& part, const cv::Point& at) const;
+  double offAcross(const Side& side, const cv::Rect& part, const cv::Point& at) const;
+  Line settled(const Side& side, const cv::Point& at) const;
+  void settle(Place& place);
   void takePeaks(double factor);
 
   cv::Size pattern_;

@@ -204,6 +204,17 @@ TEST(FacadeMemory, GivesUpATargetThatIsNotThereThoughItsPlaceIsInView) {
   EXPECT_EQ(watch.memory.targetId(), 0u);
 }
 
+TEST(FacadeMemory, AChoiceIsNotGivenUpWhereItIsNotSeen) {
+  Watch watch;
+  watch.look(20, 2);
+  ASSERT_TRUE(watch.memory.select(watch.at(3).id).success);
+  const std::uint32_t chosen = watch.memory.targetId();
+  watch.row.count = 3;  // the target among those that vanish
+  watch.look(200, 2);
+  EXPECT_EQ(watch.memory.targetId(), chosen);
+  EXPECT_NE(watch.whyNot(2).find("which is the target"), std::string::npos);
+}
+
 TEST(FacadeMemory, AChoiceOutlivesAJumpOfTheOdometryOnlyIfItIsFollowedOn) {
   for (const int followed : {2, 1}) {
     Watch watch;

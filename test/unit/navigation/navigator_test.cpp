@@ -253,6 +253,48 @@ TEST_F(NavigatorSteps, BacksOffAndSearchesWhenTheWindowIsLost) {
   EXPECT_EQ(output.setpoint.velocity_odom_mps.head<2>().norm(), 0.0);
 }
 
+TEST_F(NavigatorSteps, NoMissionStartsInTheOpeningThatTheLastOneFlewAt) {
+  for (const bool aborted : {false, true}) {
+    Navigator navigator(params_);
+    start(navigator, kFar);
+    walk(navigator, kFar, kLine);
+    const Eigen::Vector3d there(-0.3, 0.0, 1.5);
+    ASSERT_EQ(walk(navigator, kLine, there).state, State::kCommit);
+    auto input = inputAt(there, now_ += kStep);
+    input.engaged = aborted;  // else the pilot has taken over
+    if (aborted) navigator.abort("asked");
+    navigator.step(input, now_);
+    EXPECT_TRUE(navigator.reset().success);
+    ASSERT_EQ(steps(navigator, there, 1).state, State::kIdle);
+    const auto reply = navigator.start(inputAt(there, now_), now_);
+    EXPECT_FALSE(reply.success);
+    EXPECT_EQ(
+        reply.message,
+        "not started: in the opening that was flown at before, 0.30 m from its plane: take the vehicle a "
+        "metre away from it by hand");
+    walk(navigator, there, {-1.5, 0.0, 1.5});
+    EXPECT_TRUE(navigator.start(inputAt({-1.5, 0.0, 1.5}, now_), now_).success);
+  }
+}
+
+TEST_F(NavigatorSteps, NearTheWallThatTheLastMissionFlewAtASearchDoesNotClimb) {
+  for (const double x_m : {-2.0, 1.5, -4.0}) {
+    Navigator navigator(params_);
+    start(navigator, kFar);
+    walk(navigator, kFar, {-2.0, 0.0, 1.5});
+    auto input = inputAt({-2.0, 0.0, 1.5}, now_ += kStep);
+    input.engaged = false;
+    navigator.step(input, now_);
+    const Eigen::Vector3d there(x_m, 0.0, 0.6);
+    walk(navigator, {-2.0, 0.0, 1.5}, there, false);
+    start(navigator, there);
+    double fastest_mps = 0.0;
+    for (int i = 0; i < 30; ++i)
+      fastest_mps = std::max(fastest_mps, steps(navigator, there, 1, false).setpoint.velocity_odom_mps.z());
+    EXPECT_EQ(fastest_mps > 0.01, x_m == -4.0) << x_m;
+  }
+}
+
 TEST_F(NavigatorSteps, NeverFliesAtAWindowFromBehind) {
   Navigator navigator(params_);
   start(navigator, kFar);
