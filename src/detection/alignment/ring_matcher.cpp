@@ -39,10 +39,10 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
   });
 }
 
-std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image) {
+std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image, bool leaning) {
   std::vector<ScoredCandidate> rivals;
   if (!known() || image.channels() != model_.channels()) return rivals;
-  for (const RingSearch::Place& place : search_.run(image, kPlacesSearched)) {
+  for (const RingSearch::Place& place : search_.run(image, kPlacesSearched, leaning)) {
     ScoredCandidate rival;
     rival.quad = place.quad;
     rival.candidate.source = CandidateSource::kReference;

@@ -37,7 +37,7 @@ class RingMatcher {
                                             std::vector<ScoredCandidate>& rivals);
 
   /// Where the ring may be, found without any edge, see RingSearch. \param image as above
-  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
+  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image, bool leaning = true);
 
   /// Where it fits best near this place; nothing where it does not. \param coarsest_px one of the above
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,

@@ -208,7 +208,7 @@ void RingSearch::settle(Place& place) {
   if (geometry::isFinite(quad) && geometry::isConvex(quad)) place.quad = quad;
 }
 
-const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most) {
+const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most, bool leaning) {
   places_.clear();
   if (!known()) return places_;
   greyOf(image, grey_);
@@ -226,7 +226,8 @@ const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std:
       places_[kept++] = places_[i];
   }
   places_.resize(kept);
-  for (Place& place : places_) settle(place);
+  if (leaning)
+    for (Place& place : places_) settle(place);
   return places_;
 }
 

@@ -9,8 +9,9 @@ namespace window_ingress::detection {
 
 /// Where in an image the opening may be, without any edge being found: the slopes of brightness along its
 /// four sides, upright and as the reference shows them, are correlated with the whole image at every size.
-/// Each side may lie a pixel off, a fourteenth of a side: a view from elsewhere moves them by that, and the
-/// alignment does the rest. Keeps its memory.
+/// Each side may lie a pixel off, a fourteenth of a side: a view from elsewhere moves them by that. At the
+/// best places each half of a side is then put where it fits best, so that the place leans as the view does;
+/// the alignment does the rest. Keeps its memory.
 class RingSearch {
  public:
   struct Place {
@@ -26,8 +27,8 @@ class RingSearch {
   bool known() const { return !sides_.empty(); }
 
   /// Best first, each place once, at most `most`. Valid until the next call.
-  /// \param image CV_8UC1 or CV_8UC3
-  const std::vector<Place>& run(const cv::Mat& image, std::size_t most);
+  /// \param image CV_8UC1 or CV_8UC3 \param leaning false: upright, as the reference shows it
+  const std::vector<Place>& run(const cv::Mat& image, std::size_t most, bool leaning = true);
 
  private:
   /// What the reference shows along one side.

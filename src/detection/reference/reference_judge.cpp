@@ -171,9 +171,10 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
   return true;
 }
 
+// A frame in a paint of its own is found by that; a place that may lean comes to fit three sides of another.
 std::vector<ScoredCandidate> ReferenceJudge::placesEverywhere(const cv::Mat& image) {
   if (!knowsSurroundings(image)) return {};
-  return ring_.placesEverywhere(inChannels(image));
+  return ring_.placesEverywhere(inChannels(image), !hasOwnFrame());
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& match) const {
