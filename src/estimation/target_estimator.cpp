@@ -240,7 +240,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
         !other.empty())
       return other;
   // A camera that is not mounted as said may give no pose at all.
-  if (T_odom_camera) unverified_.push_back(image);
+  if (T_odom_camera && !checks_->mounting_is_sure) unverified_.push_back(image);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
   if (!image.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";

@@ -11,8 +11,8 @@ struct FilterParams {
   double attitude_bias_sigma_rad = 0.02;  ///< lasting error of roll and pitch, camera mounting included [rad]
   double mounting_yaw_sigma_rad =
       0.03;  ///< lasting error of the camera's yaw on the vehicle, and of odometry's heading beside its
-             ///< positions: an autopilot's compass is 3 to 5 degrees off; at most 0.001: the vehicle commits
-             ///< without having verified the mounting [rad]
+             ///< positions: an autopilot's compass is 3 to 5 degrees off; at most 0.001: the way flown is
+             ///< not asked whether mounting and opening's size are as said [rad]
   double drift_m_per_sqrt_m = 0.03;  ///< odometry's random walk of position over distance flown [m/sqrt(m)]
   double drift_rad_per_sqrt_sec = 0.002;  ///< odometry's random walk of heading over time [rad/sqrt(s)]
   double target_speed_mps =

@@ -60,6 +60,22 @@ TEST(TargetEstimator, TheMountingIsUnverifiedUntilItWasWatchedOrIsSaidToBeSure) 
   EXPECT_EQ(TargetEstimator(PoseParams(), sure, TargetEstimatorParams()).unverified(), "");
 }
 
+// As in a rehearsal, whose odometry is made from the window and lags: it tells nothing of the window's size.
+TEST(TargetEstimator, WhereTheMountingIsSaidToBeSureTheWayFlownDoesNotJudgeTheSizeEither) {
+  FilterParams sure;
+  sure.mounting_yaw_sigma_rad = 0.001;
+  for (const bool is_sure : {false, true}) {
+    TargetEstimator track(PoseParams(), is_sure ? sure : FilterParams(), TargetEstimatorParams());
+    for (int i = 0; i <= 90; ++i) {
+      const double now = i / 30.0, y = 0.6 * now;
+      track.addOdometry(now, vehicleAt(1.5 * y));
+      track.see(sighting(vehicleAt(y), now), kCamera, kMounting);
+    }
+    EXPECT_EQ(track.frames().what.find("opening looks like") == std::string::npos, is_sure)
+        << track.frames().what;
+  }
+}
+
 TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
   auto track = tracker();
   track.addOdometry(0.0, vehicleAt(0.0));
