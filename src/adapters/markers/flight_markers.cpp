@@ -41,21 +41,18 @@ void appendRing(Points& strokes, const Points& corners) {
   }
 }
 
+// Its edges only: a face would take the clicks that are meant for windows behind it.
 void drawFunnel(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_window,
                 const std::vector<FunnelSection>& sections) {
-  Points sides, edges, commit_line;
+  Points edges, commit_line;
   for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
     const Points near = sectionCorners(T_odom_window, sections[i]),
                  far = sectionCorners(T_odom_window, sections[i + 1]);
-    for (int k = 0; k < 4; ++k) {
-      appendFace(sides, near[k], near[(k + 1) % 4], far[(k + 1) % 4], far[k]);
-      edges.insert(edges.end(), {near[k], far[k]});
-    }
+    for (int k = 0; k < 4; ++k) edges.insert(edges.end(), {near[k], far[k]});
     if (i == 0) appendRing(commit_line, far);
     if (i > 0) appendRing(edges, far);
   }
-  sketch.surface("funnel", sides, colourOf(navigation::State::kApproach, 0.12));
-  sketch.strokes("funnel: edges", edges, colourOf(navigation::State::kApproach, 0.6));
+  sketch.strokes("funnel", edges, colourOf(navigation::State::kApproach, 0.6));
   sketch.strokes("commit line", commit_line, colourOf(navigation::State::kCommit));
 }
 

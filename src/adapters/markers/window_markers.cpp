@@ -16,6 +16,7 @@ constexpr double kSigmas = 3.0;
 constexpr double kWallM = 1.2;                            // shown beyond the opening's border
 constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
 constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
+constexpr double kFaceAlpha = 0.2;                        // seen through, and yet a click meets it
 constexpr double kFlyableM = 0.3, kFlyableScore = 0.5;    // smaller, or worse: a pane, a paving stone
 constexpr int kFanParts = 12;
 
@@ -178,8 +179,11 @@ visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& faca
     if (!T || !(is_target || (isDrawn(window) && !isPartOfAnother(window, facade)))) continue;
     const std::string name = "window " + std::to_string(window.id);
     const int verdict = std::min<int>(window.openness, 2);
-    const auto border = closed(cornersOf(*T.value, {window.width, window.height}));
-    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], 0.9));
+    const Points corners = cornersOf(*T.value, {window.width, window.height});
+    if (!is_target) sketch.line(name, closed(corners), colourOf(kColours[verdict], 0.9));
+    Points face;
+    appendFace(face, corners[0], corners[1], corners[2], corners[3]);
+    sketch.surface(name + ": face", face, colourOf(kColours[verdict], kFaceAlpha));
     std::string text = std::to_string(window.id) + (is_target ? ", target: " : ": ") + kVerdicts[verdict];
     if (window.failures > 0) text += ", given up";
     sketch.text(name + ": text", above(*T.value, window.height, kNumberAboveM), text);

@@ -32,7 +32,7 @@ visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& 
                                               const std::string& frame_id);
 
 /// The windows known that somebody would fly at: borders coloured by whether they are open, above each its
-/// number and verdict.
+/// number and verdict, and within a faint face, which a click meets.
 visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade);
 
 }  // namespace window_ingress::adapters

@@ -34,7 +34,8 @@ TEST(FacadeConversion, TellsEveryWindowWithItsNumberAndWhichIsTheTarget) {
     EXPECT_NEAR(window.last_seen, 1.1, 1e-9);
     EXPECT_NEAR(window.width, 1.2, 0.1);
   }
-  EXPECT_EQ(facadeMarkers(message).markers.size(), 4u + 5u) << "a border each but the target's, and a text";
+  EXPECT_EQ(facadeMarkers(message).markers.size(), 4u + 5u + 5u)
+      << "a border each but the target's, a face and a text";
 }
 
 TEST(FacadeConversion, AWindowIsListedAtItsThirdSight) {
@@ -65,12 +66,33 @@ TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsNotDrawn) {
     window.openness = static_cast<std::uint8_t>(openness);
   }
   const auto markers = facadeMarkers(message).markers;
-  ASSERT_EQ(markers.size(), 4u) << "a border and a text each";
-  EXPECT_EQ(markers[1].text, "1: open?");
-  EXPECT_EQ(markers[3].text, "5: CLOSED");
-  EXPECT_GT(markers[3].pose.position.z, 0.6) << "above its border";
+  ASSERT_EQ(markers.size(), 6u) << "a border, a face and a text each";
+  EXPECT_EQ(markers[2].text, "1: open?");
+  EXPECT_EQ(markers[5].text, "5: CLOSED");
+  EXPECT_GT(markers[5].pose.position.z, 0.6) << "above its border";
   message.target_id = 3;
-  EXPECT_EQ(facadeMarkers(message).markers.size(), 5u) << "the target is named, whatever it looks like";
+  EXPECT_EQ(facadeMarkers(message).markers.size(), 8u) << "the target is named, whatever it looks like";
+}
+
+TEST(FacadeConversion, AFaceFillsEachWindowSoThatAClickWithinMeetsIt) {
+  const window_ingress::Facade message = toMsg(memoryOfARow(), 13.0);
+  for (const window_ingress::KnownWindow& window : message.windows) {
+    const auto markers = facadeMarkers(message).markers;
+    const auto face = std::find_if(markers.begin(), markers.end(), [&](const auto& one) {
+      return one.ns == "window " + std::to_string(window.id) + ": face";
+    });
+    ASSERT_NE(face, markers.end()) << window.id;
+    ASSERT_EQ(face->points.size(), 6u);
+    double area_m2 = 0.0;
+    for (std::size_t i = 0; i < 6; i += 3) {
+      const auto at = [&](std::size_t k) -> Eigen::Vector3d {
+        return {face->points[i + k].x, face->points[i + k].y, face->points[i + k].z};
+      };
+      area_m2 += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+    }
+    EXPECT_NEAR(area_m2, window.width * window.height, 1e-9);
+    EXPECT_LT(face->color.a, 0.3F) << "and it is seen through";
+  }
 }
 
 TEST(FacadeConversion, OneThingUnderTwoNumbersIsDrawnOnce) {

@@ -79,13 +79,19 @@ TEST(FlightMarkers, TheStateAndItsReasonAreReadable) {
 
 TEST(FlightMarkers, TheFunnelIsShownOnlyWhileTheSignIsTrusted) {
   Scene scene;
-  for (const char* name : {"funnel", "funnel: edges", "commit line"})
+  for (const char* name : {"funnel", "commit line"})
     EXPECT_EQ(scene.drawn().at(name).action, Marker::ADD) << name;
   scene.input.target->sign_trusted = false;
-  for (const char* name : {"funnel", "funnel: edges", "commit line"})
+  for (const char* name : {"funnel", "commit line"})
     EXPECT_EQ(scene.drawn().at(name).action, Marker::DELETE) << name;
   scene.input.target.reset();
   EXPECT_EQ(scene.drawn().at("funnel").action, Marker::DELETE);
+}
+
+TEST(FlightMarkers, TheFunnelHasNoFacesThatWouldTakeTheClicksForWindowsBehindIt) {
+  for (const auto& [name, marker] : Scene().drawn()) EXPECT_NE(marker.type, Marker::TRIANGLE_LIST) << name;
+  EXPECT_EQ(Scene().drawn().at("funnel").points.size(), 2u * (4u + 4u + 4u))
+      << "two lengths and the outer rim";
 }
 
 TEST(FlightMarkers, TheCommitLineIsARectangleAtTheCommitDistance) {
