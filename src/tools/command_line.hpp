@@ -25,6 +25,9 @@ constexpr const char* kParamsHelp =
     "yaml file laid over the defaults, as config:= of launch files: its first level names the nodes, and the "
     "vehicle";
 
+/// Of --overwrite, where a tool writes files that a user may have changed.
+constexpr const char* kOverwriteHelp = "replaces files that are there already";
+
 /// `count` finite numbers with commas between, any number of them for 0. \throws InputError that names the
 /// option
 inline std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
@@ -58,6 +61,13 @@ inline void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) throw InputError(folder + ": cannot make this folder");
+}
+
+/// \throws InputError if one of the files is there: somebody may still need it
+inline void checkReplacesNothing(const std::vector<std::filesystem::path>& files) {
+  for (const auto& file : files)
+    if (std::filesystem::is_regular_file(file))
+      throw InputError(file.string() + " is there already: --overwrite replaces it, or give another name");
 }
 
 /// Runs a tool. What it throws becomes a line on stderr, one for each fault, and the exit code: 2 for wrong

@@ -165,7 +165,7 @@ class CornerClicks {
 
 struct Job {
   std::string image, output = "reference.png", corners, params;
-  bool fit = false;
+  bool fit = false, overwrite = false;
 };
 
 tools::OptionList describe(Job& job) {
@@ -177,6 +177,7 @@ tools::OptionList describe(Job& job) {
       "the edges, u: undo, Enter: save, q: quit.");
   add("picture", job.image, "photograph of the target with some wall round it");
   add("output", job.output, "image to write");
+  add("overwrite", job.overwrite, tools::kOverwriteHelp);
   add("corners", job.corners, "x1,y1,...,x4,y4 instead of clicking; pixel centres are integers");
   add("fit", job.fit, "fit the corners to the edges near them");
   add("params", job.params, tools::kParamsHelp);
@@ -186,6 +187,10 @@ tools::OptionList describe(Job& job) {
 
 int run(const Job& job) {
   if (job.image.empty()) throw InputError("no image given; see --help");
+  const fs::path written = fs::absolute(job.output);
+  const fs::path understood = written.parent_path() / (written.stem().string() + "_understood.png");
+  const fs::path overlay = fs::path(written).replace_extension(".yaml");
+  if (!job.overwrite) tools::checkReplacesNothing({written, overlay, understood});
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const cv::Mat image = evaluation::readImage(job.image);
   std::vector<double> corners;
@@ -212,13 +217,10 @@ int run(const Job& job) {
   else
     std::cout << beside.said << "\n";
   adapters::saveReference(job.output, reference);
-  const fs::path written = fs::absolute(job.output);
   const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it
-  std::cout << "written: " << written.string() << "\nlook at: "
-            << (written.parent_path() / (written.stem().string() + "_understood.png")).string()
+  std::cout << "written: " << written.string() << "\nlook at: " << understood.string()
             << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
-            << "roslaunch window_ingress ingress.launch config:="
-            << fs::path(written).replace_extension(".yaml").string() << "\n";
+            << "roslaunch window_ingress ingress.launch config:=" << overlay.string() << "\n";
   return 0;
 }
 

@@ -33,7 +33,7 @@ struct Job {
   adapters::ReferenceParams reference;
   std::vector<std::string> settings;
   int every = 10, most = 100, width = 400;
-  bool headless = false;
+  bool headless = false, overwrite = false;
 };
 
 tools::OptionList describe(Job& job) {
@@ -43,6 +43,7 @@ tools::OptionList describe(Job& job) {
       kKeys);
   add("source", job.source, "see above");
   add("output", job.output, "yaml file with what differs from the defaults, for config:= and --params");
+  add("overwrite", job.overwrite, tools::kOverwriteHelp);
   add("params", job.params, tools::kParamsHelp);
   add.add_options()("set", boost::program_options::value(&job.settings)->composing(),
                     "NAME=VALUE, like edges/floor=4.5; may be repeated");
@@ -192,6 +193,7 @@ int run(Job job) {
   if (job.source.empty()) throw InputError("no SOURCE given; see --help");
   if (!job.headless && job.output.empty())
     throw InputError("--output is missing: where 's' saves; see --help");
+  if (!job.overwrite) tools::checkReplacesNothing({job.output});
   if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
   auto start = tools::readParams(job.params, job.reference.picture, job.reference.corners);
   const auto fields = parameters::fieldsOf(start);

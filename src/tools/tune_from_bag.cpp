@@ -28,6 +28,7 @@ struct Job {
   int every = 1, trials = 120;
   std::uint32_t seed = 1;
   double held_out = 0.4;
+  bool overwrite = false;
 };
 
 using Images = std::vector<evaluation::LabelledImage>;
@@ -41,6 +42,7 @@ tools::OptionList describe(Job& job) {
       "better on the rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
       "usage or unreadable input.");
   add.required("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
+  add("overwrite", job.overwrite, tools::kOverwriteHelp);
   add("labels", job.labels, "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)");
   add("images", job.images, "folder of the images that the csv names");
   add("bag", job.bags, "bags with images, calibration and truth");
@@ -73,6 +75,7 @@ void check(const Job& job) {
     throw InputError("--bag needs --truth and --window-size: without them nobody knows what is right");
   if (!job.corners.empty() && job.reference.picture.empty())
     throw InputError("--reference-corners needs --reference");
+  if (!job.overwrite) tools::checkReplacesNothing({job.output});
 }
 
 Images read(const Job& job) {

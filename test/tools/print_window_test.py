@@ -74,6 +74,17 @@ def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
     assert checked.returncode == 0, checked.stderr
 
 
+@pytest.mark.parametrize("there", ["window.pdf", "window.png", "window.yaml"])
+def test_a_file_that_is_there_is_replaced_only_where_that_is_asked_for(tmp_path, there):
+    (tmp_path / there).write_text("of another window", encoding="utf-8")
+    command = "print_window", "--output", tmp_path / "window.pdf"
+    done = run(*command)
+    assert done.returncode == 2 and done.stderr == f"print_window: {tmp_path / there} is there already: --overwrite replaces it, or give another name\n"
+    assert [file.name for file in tmp_path.iterdir()] == [there]
+    done = run(*command, "--overwrite")
+    assert done.returncode == 0 and b"of another window" not in (tmp_path / there).read_bytes(), done.stderr
+
+
 @pytest.mark.parametrize("arguments, said", [
     (["--output", "window.svg"], "does not end in .pdf"), (["--output", "w.pdf", "--size", "1"], "'1' is not W,H"),
     (["--output", "w.pdf", "--size", "0.01,1"], "0.1 to 3 m"), (["--output", "w.pdf", "--frame", "wide"], "'wide' is no number"),

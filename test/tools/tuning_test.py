@@ -229,6 +229,30 @@ def test_tune_from_bag_says_what_is_wrong(labelled, arguments, words):
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
 
 
+# --- what is there already
+@pytest.mark.parametrize("command, there", [
+    (("make_reference", "IMAGE", "--output", "window.png"), "window.png"), (("make_reference", "IMAGE", "--output", "window.png"), "window.yaml"),
+    (("make_reference", "IMAGE", "--output", "window.png"), "window_understood.png"), (("tune_detector", "FOLDER", "--output", "my.yaml"), "my.yaml"),
+    (("tune_from_bag", "--labels", "LABELS", "--images", "FOLDER", "--output", "my.yaml"), "my.yaml")])
+def test_a_file_that_is_there_is_not_replaced_and_that_is_said_before_anybody_clicks(labelled, tmp_path, command, there):
+    known = {"IMAGE": labelled / "a.png", "LABELS": labelled / "labels.csv", "FOLDER": labelled}
+    (tmp_path / there).write_text("homography_pose: {pose: {opening_width_m: 0.5}}\n")
+    code, _, errors = answer(*[known.get(part, tmp_path / part if "." in part else part) for part in command], DISPLAY="", WAYLAND_DISPLAY="")
+    assert code == 2 and errors == f"{command[0]}: {tmp_path / there} is there already: --overwrite replaces it, or give another name\n"
+    assert "0.5" in (tmp_path / there).read_text() and len(list(tmp_path.iterdir())) == 1
+
+
+def test_a_file_that_is_there_is_replaced_where_that_is_asked_for(labelled, blind, tmp_path):
+    reference = ("make_reference", labelled / "a.png", "--output", tmp_path / "my.png", "--corners", flat(corners_at(*VIEWS[0])))
+    settings = ("tune_detector", labelled / "a.png", "--headless", "--set", "edges/floor=4.5", "--output", tmp_path / "my.yaml")
+    thresholds = ("tune_from_bag", "--trials", 40, "--names", "gates/min_area,min_score", "--labels", labelled / "labels.csv", "--images", labelled,
+                  "--params", blind, "--output", tmp_path / "my.yaml")
+    for command, written in ((reference, "corners"), (settings, "floor"), (thresholds, "min_area")):
+        (tmp_path / "my.yaml").write_text("{}\n")
+        code, _, errors = answer(*command, "--overwrite")
+        assert code == 0 and written in (tmp_path / "my.yaml").read_text(), errors
+
+
 # --- make_reference
 def flat(corners):
     return ",".join(f"{value:.2f}" for corner in corners for value in corner)
