@@ -7,6 +7,7 @@
 #include "navigation/behaviours/behaviours.hpp"
 #include "navigation/behaviours/home.hpp"
 #include "navigation/behaviours/position_hold.hpp"
+#include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
@@ -22,8 +23,6 @@
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
-constexpr double kLostM =
-    1.0;  // set right in odometry: nobody knows any more how far the vehicle is from there
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -44,7 +43,7 @@ struct Navigator::Impl {
   std::unique_ptr<Behaviour> behaviour;  ///< of the state, if it has one
   std::string reason;
   MissionState memory;
-  std::optional<TargetEstimate> flown_at;  ///< by this mission or the last; where the vehicle may still be
+  FlownWindow flown_at;
   Setpoint last_setpoint;
   Home home;
   MissionClock clock;
@@ -65,8 +64,6 @@ struct Navigator::Impl {
   Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
   void change(State to, const std::string& why);
   Setpoint output(const Decision& decision, const Situation& situation);
-  void rememberWindow(const Situation& situation);
-  void bringWindowToOdom();
   MeasuredVehicle measuredVehicle() const;
   void follow(const MissionPolicy& policy);
 };
@@ -125,20 +122,8 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
     memory.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
   }
-  rememberWindow(situation);
-}
-
-// A monitor that begins anew believes odometry as it is.
-void Navigator::Impl::bringWindowToOdom() {
-  if (flown_at)
-    flown_at->T_odom_window =
-        monitor.odometry().T_smooth_odom(clock.nowSec()).inverse() * flown_at->T_odom_window;
-}
-
-// Beyond its mission, as long as it is known where the vehicle is.
-void Navigator::Impl::rememberWindow(const Situation& situation) {
-  if ((state == State::kApproach || state == State::kCommit) && memory.trusted) flown_at = memory.trusted;
-  if (situation.vehicle_jumped || monitor.odometry().shiftM() > kLostM) flown_at.reset();
+  const bool flies_at = state == State::kApproach || state == State::kCommit;
+  flown_at.follow(flies_at ? memory.trusted : std::nullopt, situation, monitor.odometry());
 }
 
 // A window once flown at is not exchanged for another one on the way, and none is flown at from behind.
@@ -220,7 +205,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.follow(policy);
   self.memory = MissionState();
-  self.memory.was_near = self.flown_at && isUnderRoof(*situation.vehicle, *self.flown_at);
+  self.memory.was_near = self.flown_at.mayHaveRoofAbove(*situation.vehicle);
   self.observer.reset();
   self.turn.reset();
   self.home = Home();
@@ -248,7 +233,7 @@ Reply Navigator::reset() {
   if (self.state == State::kIdle) return {true, "already idle"};
   const auto to = next(self.state, Event::kReset);
   if (!to) return {false, std::string("flying: ") + toString(self.state) + "; abort first"};
-  self.bringWindowToOdom();
+  self.flown_at.bringToOdom(self.monitor.odometry(), self.clock.nowSec());
   self.monitor.reset();
   self.follow({});
   self.change(*to, self.waiting());

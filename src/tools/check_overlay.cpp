@@ -18,6 +18,7 @@
 #include "navigation/mission/mission_rules.hpp"
 #include "params_file.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "size_checks.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -70,8 +71,6 @@ std::string given(std::string text) {
   return text == "none" ? "" : text;
 }
 
-void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
-
 /// \return width over height of the opening in the reference image; 0: nobody says it
 double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
@@ -83,7 +82,7 @@ double checkReference(const Options& o, const std::string& file,
   if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
   if (reference.picture.empty()) {
     if (o.needs_window_size == "true")
-      warn(
+      tools::warn(
           "no reference image (reference:=, or window_detector/reference in the file): other windows and "
           "decoys are taken for the target");
     return 0.0;
@@ -94,7 +93,7 @@ double checkReference(const Options& o, const std::string& file,
   try {
     const auto opening = adapters::loadReference(reference, detector.detector).opening();
     if (!reference.corners.empty()) return geometry::aspectRatio(opening);
-    warn(tools::kGuessedOpening);
+    tools::warn(tools::kGuessedOpening);
     return 0.0;
   } catch (const InputError& error) {
     throw InputError(from + error.what());
@@ -121,8 +120,8 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   };
   if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
       contradicts("opening_height_m", pose.opening_height_m, size[1])) {
-    warn(formatted("window_size %s counts more than %s, which says %g,%g", text.c_str(), file.c_str(),
-                   pose.opening_width_m, pose.opening_height_m));
+    tools::warn(formatted("window_size %s counts more than %s, which says %g,%g", text.c_str(), file.c_str(),
+                          pose.opening_width_m, pose.opening_height_m));
   }
   tools::takeWindowSize("window_size", text, pose);
 }
@@ -132,7 +131,7 @@ void checkAspect(double in_image, const estimation::PoseParams& opening) {
   constexpr double kMaxRatio = 1.25;
   const double said = opening.opening_width_m / opening.opening_height_m;
   if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
-  warn(formatted(
+  tools::warn(formatted(
       "the opening, %g x %g m, is %.3g times as wide as it is high, in the reference image %.3g times: "
       "measure both sides, look at the corners",
       opening.opening_width_m, opening.opening_height_m, said, in_image));
@@ -142,61 +141,10 @@ void checkSpeeds(const configuration::Overlay& overlay) {
   const double speed = overlay.ingress_navigator.navigator.limits.speed_mps;
   const double guarded = overlay.setpoint_guard.max_speed_mps;
   if (speed >= guarded)
-    warn(
+    tools::warn(
         formatted("setpoint_guard/max_speed_mps %g is not above ingress_navigator/navigator/limits/speed_mps "
                   "%g: all that is faster becomes zero",
                   guarded, speed));
-}
-
-bool says(const configuration::Overlay& overlay, const std::string& group,
-          const std::vector<const char*>& keys) {
-  return std::all_of(keys.begin(), keys.end(),
-                     [&](const char* key) { return overlay.said.count(group + key) != 0; });
-}
-
-bool saysOpening(const configuration::Overlay& overlay) {
-  return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
-}
-
-// A drone does not fly by the size of somebody else's window.
-void checkOpeningIsSaid(const Options& o, const configuration::Overlay& overlay) {
-  const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
-  if (!is_found_out && given(o.window_size).empty() && !saysOpening(overlay))
-    throw InputError(
-        "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
-        "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
-}
-
-// A side that is not said is that of the default window.
-void checkBothSides(const configuration::Overlay& overlay) {
-  const bool width = says(overlay, "homography_pose/pose/", {"opening_width_m"});
-  const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
-  if (width == height) return;
-  const auto& pose = overlay.homography_pose.pose;
-  warn(formatted(
-      "of the opening only one side is said: homography_pose/pose/%s is missing, and taken for %g m",
-      width ? "opening_height_m" : "opening_width_m", width ? pose.opening_height_m : pose.opening_width_m));
-}
-
-// Nor, unsaid, by that of somebody else's vehicle.
-void checkVehicleIsSaid(const configuration::Overlay& overlay) {
-  if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
-  const auto& vehicle = overlay.vehicle;
-  warn(
-      formatted("the vehicle's size is not said: px4 and ardupilot.launch take it for one of %g x %g x %g m; "
-                "measure it, propellers included, and say in the file of config:= vehicle: "
-                "{half_length_m: L, half_width_m: W, half_height_m: H}",
-                2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
-}
-
-void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
-  const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
-  if (opening.scale_sigma > 0.0 || (width_m < opening.opening_width_m && height_m < opening.opening_height_m))
-    return;
-  throw InputError(
-      formatted("the vehicle, %g x %g m (twice vehicle/half_width_m, half_height_m), does not fit "
-                "through the opening, %g x %g m: measure both",
-                width_m, height_m, opening.opening_width_m, opening.opening_height_m));
 }
 
 void checkCameraPose(const std::string& text) {
@@ -265,19 +213,20 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
     faults.collect(
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
-  if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
+  if (aspect > 0.0 && (tools::saysOpening(overlay) || !given(o.window_size).empty()))
     checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
-  if (given(o.window_size).empty()) checkBothSides(overlay);
+  const bool by_argument = !given(o.window_size).empty();
+  if (!by_argument) tools::checkBothSides(overlay);
   const bool is_drone = o.needs_window_size == "true";
-  if (is_drone) faults.collect([&] { checkOpeningIsSaid(o, overlay); });
+  if (is_drone) faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay); });
   const bool by_hand = o.launch_folder.empty() && o.fly.empty();
-  if (by_hand ? saysOpening(overlay) : is_drone && o.fly == "true") checkVehicleIsSaid(overlay);
+  if (by_hand ? tools::saysOpening(overlay) : is_drone && o.fly == "true") tools::checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
-  const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
-                                                  says(overlay, "vehicle/", {"half_height_m"}));
-  if (o.fly == "true" || (by_hand && says_both))
-    faults.collect([&] { checkFits(overlay.vehicle, overlay.homography_pose.pose); });
+  const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/", {"half_width_m"}) ||
+                                                         tools::says(overlay, "vehicle/", {"half_height_m"}));
+  if (o.fly == "true" || (o.fly.empty() && says_both))
+    faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
 int check(const Options& o) {

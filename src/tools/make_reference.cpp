@@ -187,10 +187,8 @@ tools::OptionList describe(Job& job) {
 
 int run(const Job& job) {
   if (job.image.empty()) throw InputError("no image given; see --help");
-  const fs::path written = fs::absolute(job.output);
-  const fs::path understood = written.parent_path() / (written.stem().string() + "_understood.png");
-  const fs::path overlay = fs::path(written).replace_extension(".yaml");
-  if (!job.overwrite) tools::checkReplacesNothing({written, overlay, understood});
+  const adapters::ReferenceFiles files(job.output);
+  if (!job.overwrite) tools::checkReplacesNothing({files.image, files.overlay, files.understood});
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const cv::Mat image = evaluation::readImage(job.image);
   std::vector<double> corners;
@@ -218,9 +216,9 @@ int run(const Job& job) {
     std::cout << beside.said << "\n";
   adapters::saveReference(job.output, reference);
   const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it
-  std::cout << "written: " << written.string() << "\nlook at: " << understood.string()
+  std::cout << "written: " << files.image.string() << "\nlook at: " << files.understood.string()
             << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
-            << "roslaunch window_ingress ingress.launch config:=" << overlay.string() << "\n";
+            << "roslaunch window_ingress ingress.launch config:=" << files.overlay.string() << "\n";
   return 0;
 }
 

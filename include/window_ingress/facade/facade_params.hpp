@@ -6,7 +6,7 @@ namespace window_ingress::facade {
 struct FacadeParams {
   bool enabled = true;  ///< remember the windows of the facade and tell the target from its neighbours
   double release_sec =
-      8.0;  ///< a target that should be in view and is not seen for this long is given up [s]
+      8.0;  ///< a target that nobody chose, should be in view and is not seen for this long is given up [s]
   double distance_margin = 0.2;  ///< a window becomes the target in place of another one if its Bhattacharyya
                                  ///< distance from the reference is smaller by this
   double odom_drift_m_per_sqrt_sec = 0.01;  // not in `visit`: config/vehicle.yaml says it

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
@@ -61,24 +60,27 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
   return makeReference(image, reference.corners, params);
 }
 
+ReferenceFiles::ReferenceFiles(const std::string& file)
+    : image(std::filesystem::absolute(file)),
+      overlay(std::filesystem::path(image).replace_extension(".yaml")),
+      understood(image.parent_path() / (image.stem().string() + "_understood.png")) {}
+
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference) {
-  namespace fs = std::filesystem;
-  const fs::path path = fs::absolute(file);
+  const ReferenceFiles files(file);
   const geometry::Quadrilateral& opening = reference.opening();
   std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
-  if (!writeImage(path.string(), reference.image()) ||
-      !writeImage(understood.string(), detection::drawReference(reference)))
-    throw InputError("reference: cannot write '" + path.string() + "' as JPEG or PNG, or what is beside it");
-  const fs::path text = fs::path(path).replace_extension(".yaml");
-  std::ofstream output(text);
-  output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(path.string())
+  std::filesystem::create_directories(files.image.parent_path(), ignored);
+  if (!writeImage(files.image.string(), reference.image()) ||
+      !writeImage(files.understood.string(), detection::drawReference(reference)))
+    throw InputError("reference: cannot write '" + files.image.string() +
+                     "' as JPEG or PNG, or what is beside it");
+  std::ofstream output(files.overlay);
+  output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(files.image.string())
          << "\n    corners: [";
   for (int i = 0; i < 4; ++i) output << (i ? ", " : "") << opening[i].x() << ", " << opening[i].y();
   output << "]\n";
   output.close();
-  if (!output) throw InputError("reference: cannot write '" + text.string() + "'");
+  if (!output) throw InputError("reference: cannot write '" + files.overlay.string() + "'");
 }
 
 }  // namespace window_ingress::adapters

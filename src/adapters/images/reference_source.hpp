@@ -3,6 +3,7 @@
 
 #include <window_ingress/ReferenceImage.h>
 
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -29,10 +30,15 @@ detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImag
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params);
 
-/// Writes a reference: the image; in a file of the same name that ends in .yaml the parameters that load
-/// it, below the node's name, so that it can be laid over the defaults as `config:=`; and in one that ends in
-/// _understood.png what is made of it (`detection::drawReference`). \throws InputError that says which
-/// file could not be written
+/// Of one reference: the image; beside it, of the same name, one that ends in .yaml with the parameters that
+/// load it, below the node's name, so that it can be laid over the defaults as `config:=`; and one that ends
+/// in _understood.png, what is made of it (`detection::drawReference`).
+struct ReferenceFiles {
+  std::filesystem::path image, overlay, understood;  ///< absolute
+  explicit ReferenceFiles(const std::string& file);
+};
+
+/// Writes all of them. \throws InputError that says which could not be written
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference);
 
 }  // namespace window_ingress::adapters

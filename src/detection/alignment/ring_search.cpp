@@ -19,8 +19,8 @@ constexpr float kLeast = 0.25F;                           ///< correlation of a 
 constexpr double kSlopeNoise = 0.02;                      ///< of a slope of a logarithm [1/px]
 constexpr int kFewestShown = 3;                           ///< that the reference must show
 constexpr int kPeakPx = 5;
-constexpr int kFurthestPx = 2;           ///< that half a side may lie off its place, across
-constexpr double kLessLikelyApx = 0.02;  ///< for each pixel
+constexpr int kFurthestPx = 2;     ///< that half a side may lie off its place, across
+constexpr double kOffCost = 0.02;  ///< taken from its likeness for each pixel that it lies off
 
 void greyOf(const cv::Mat& image, cv::Mat& grey) {
   if (image.channels() == 3)
@@ -164,7 +164,7 @@ double RingSearch::offAcross(const Side& side, const cv::Rect& part, const cv::P
       best = std::max(
           best,
           likeness(side, part, at + (side.is_level ? cv::Point(along, across) : cv::Point(across, along))));
-    alike[across + kFurthestPx] = best - kLessLikelyApx * std::abs(across);
+    alike[across + kFurthestPx] = best - kOffCost * std::abs(across);
   }
   const auto most = std::max_element(alike.begin(), alike.end());
   const auto off = static_cast<double>(most - alike.begin()) - kFurthestPx;

@@ -1,0 +1,67 @@
+/// What check_overlay asks of a parameter file about the sizes of opening and vehicle.
+#pragma once
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/text/text.hpp"
+
+namespace window_ingress::tools {
+
+inline void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
+
+inline bool says(const configuration::Overlay& overlay, const std::string& group,
+                 const std::vector<const char*>& keys) {
+  return std::all_of(keys.begin(), keys.end(),
+                     [&](const char* key) { return overlay.said.count(group + key) != 0; });
+}
+
+inline bool saysOpening(const configuration::Overlay& overlay) {
+  return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
+}
+
+// A drone does not fly by the size of somebody else's window.
+inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& overlay) {
+  const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
+  if (!is_found_out && !by_argument && !saysOpening(overlay))
+    throw InputError(
+        "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
+        "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
+}
+
+// A side that is not said is that of the default window.
+inline void checkBothSides(const configuration::Overlay& overlay) {
+  const bool width = says(overlay, "homography_pose/pose/", {"opening_width_m"});
+  const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
+  if (width == height) return;
+  const auto& pose = overlay.homography_pose.pose;
+  warn(formatted(
+      "of the opening only one side is said: homography_pose/pose/%s is missing, and taken for %g m",
+      width ? "opening_height_m" : "opening_width_m", width ? pose.opening_height_m : pose.opening_width_m));
+}
+
+// Nor, unsaid, by that of somebody else's vehicle.
+inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
+  if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
+  const auto& vehicle = overlay.vehicle;
+  warn(
+      formatted("the vehicle's size is not said: px4 and ardupilot.launch take it for one of %g x %g x %g m; "
+                "measure it, propellers included, and say in the file of config:= vehicle: "
+                "{half_length_m: L, half_width_m: W, half_height_m: H}",
+                2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
+}
+
+inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
+  const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
+  if (opening.scale_sigma > 0.0 || (width_m < opening.opening_width_m && height_m < opening.opening_height_m))
+    return;
+  throw InputError(
+      formatted("the vehicle, %g x %g m (twice vehicle/half_width_m, half_height_m), does not fit "
+                "through the opening, %g x %g m: measure both",
+                width_m, height_m, opening.opening_width_m, opening.opening_height_m));
+}
+
+}  // namespace window_ingress::tools
