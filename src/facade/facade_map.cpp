@@ -12,6 +12,8 @@ constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two wind
 
 constexpr double kMaxSquares = 3.5 * 3.5;  // Mahalanobis, of a place from the window that it belongs to
 constexpr double kForgetSec = 2.0;         // a window that has no number yet
+constexpr double kForgetGuessSec = 8.0;    // one whose distance was guessed, and which is not seen there
+constexpr double kMinSize = 0.5;           // of the size looked for: paving stones, panes, strips of a frame
 constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights over what the filter is told
 constexpr double kSizeRatio = 1.35;        // beyond which two loops are not one window
 
@@ -91,9 +93,11 @@ void FacadeMap::learn(double stamp_sec, Sight& sight) {
     window->place = fused(window->place, sight.place);
   }
   window->last_seen_sec = stamp_sec;
-  if (++window->sights >= kMinSights && window->id == 0) window->id = ++last_id_;
   window->score = sight.seen->score;
   window->may_be_target = sight.seen->may_be_target;
+  // Before there is a wall, any rectangle may be seen anywhere: then its look must speak for it.
+  const bool is_window = window->may_be_target || window->place.on_wall;
+  if (++window->sights >= kMinSights && is_window && window->id == 0) window->id = ++last_id_;
   if (sight.seen->has_appearance)
     window->bhattacharyya = std::min(sight.seen->bhattacharyya, window->bhattacharyya.value_or(1.0));
   if (sight.seen->is_target) followed_key_ = sight.key;
@@ -123,25 +127,36 @@ void FacadeMap::merge() {
     }
 }
 
-void FacadeMap::prune(double stamp_sec) {
+// Where the distance rested on the size looked for, what was seen may be nearer or further. It is known by
+// the images that were searched: they show others than the one followed.
+void FacadeMap::prune(const FacadeView& view, bool knows_wall, std::uint32_t kept) {
+  const bool was_searched = std::any_of(view.windows.begin(), view.windows.end(),
+                                        [](const detection::SeenWindow& seen) { return !seen.is_target; });
   const auto is_stale = [&](const KnownWindow& window) {
-    return !isConfirmed(window) && stamp_sec - window.last_seen_sec > kForgetSec;
+    const double unseen_sec = view.stamp_sec - window.last_seen_sec;
+    if (!isConfirmed(window)) return unseen_sec > kForgetSec;
+    return knows_wall && !window.place.on_wall && window.id != kept && was_searched &&
+           unseen_sec > kForgetGuessSec && inView(window.place, view.from);
   };
   windows_.erase(std::remove_if(windows_.begin(), windows_.end(), is_stale), windows_.end());
 }
 
 void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
-                    const geometry::OpeningSize& looked_for) {
+                    const geometry::OpeningSize& looked_for, std::uint32_t kept) {
+  const auto is_too_small = [&](const WindowPlace& place) {
+    return place.on_wall && (place.size.width_m < kMinSize * looked_for.width_m ||
+                             place.size.height_m < kMinSize * looked_for.height_m);
+  };
   std::vector<Sight> sights;
   for (const detection::SeenWindow& seen : view.windows)
-    if (const auto place = placeOf(seen.corners, view.from, wall, looked_for))
+    if (const auto place = placeOf(seen.corners, view.from, wall, looked_for); place && !is_too_small(*place))
       sights.push_back({&seen, *place});
   followed_key_ = 0;
   associate(view, sights);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
   merge();
-  prune(view.stamp_sec);
+  prune(view, wall.has_value(), kept);
 }
 
 void FacadeMap::correct(std::uint32_t id, const WindowPlace& place) {

@@ -82,7 +82,7 @@ void FacadeMemory::see(const FacadeView& view, const std::optional<estimation::F
   if (!params_.enabled) return;
   looked_for_ = looked_for;
   if (filtered && filtered->sign_trusted) wall_ = wallFrom(*filtered);
-  map_.see(view, wall_, looked_for);
+  map_.see(view, wall_, looked_for, target_id_);
   if (target() == nullptr) target_id_ = 0;
   if (filtered) adopt(*filtered, view.track_id);
   yieldToBetterLook();
@@ -154,20 +154,21 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
 std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& from) const {
   const KnownWindow* target = this->target();
   if (!params_.enabled || target == nullptr) return std::nullopt;
-  const auto quad = geometry::projectOpening(
-      from.camera, from.T_odom_camera.inverse() * poseOf(target->place), target->place.size);
-  if (!quad || !geometry::isConvex(*quad)) return std::nullopt;
-  const auto in_view = [&](const Eigen::Vector2d& corner) { return from.camera.contains(corner); };
-  return std::all_of(quad->begin(), quad->end(), in_view) ? quad : std::nullopt;
+  return inView(target->place, from);
 }
 
 Answer FacadeMemory::select(std::uint32_t id) {
+  if (id == 0) {
+    setTarget(0, false);
+    return {true, "no window is chosen: the one that is followed becomes the target"};
+  }
   const KnownWindow* window = map_.find(id);
   if (window == nullptr || !map_.isConfirmed(*window)) return {false, "no " + name(id) + " is known"};
   if (isClosed(*window)) return {false, name(id) + " was seen to be closed: " + window->openness.reason};
   setTarget(id, true);
   map_.find(id)->failures = 0;
-  return {true, name(id) + " is the target"};
+  return {true, name(id) + " is the target" +
+                    (window->may_be_target ? "" : ", though it does not look like the reference")};
 }
 
 Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {

@@ -1,5 +1,6 @@
 #include "window_ingress/facade/window_place.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -84,6 +85,14 @@ std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const
 Eigen::Isometry3d poseOf(const WindowPlace& place) {
   return geometry::makePose(Eigen::AngleAxisd(place.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
                             place.position_m);
+}
+
+std::optional<geometry::Quadrilateral> inView(const WindowPlace& place, const Viewpoint& view) {
+  const auto quad =
+      geometry::projectOpening(view.camera, view.T_odom_camera.inverse() * poseOf(place), place.size);
+  if (!quad || !geometry::isConvex(*quad)) return std::nullopt;
+  const auto is_in_image = [&](const Eigen::Vector2d& corner) { return view.camera.contains(corner); };
+  return std::all_of(quad->begin(), quad->end(), is_in_image) ? quad : std::nullopt;
 }
 
 double squaresBetween(const WindowPlace& a, const WindowPlace& b, double drift_m2) {

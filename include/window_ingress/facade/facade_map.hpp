@@ -15,8 +15,8 @@ namespace window_ingress::facade {
 
 /// A window that was seen, and what is known of it.
 struct KnownWindow {
-  std::uint32_t id = 0;   ///< from 1, once enough images have shown it; never given to another one, but after
-                          ///< a reset
+  std::uint32_t id = 0;   ///< from 1, once enough images have shown it, on the wall or like the target; never
+                          ///< given to another one, but after a reset
   std::uint32_t key = 0;  ///< from 1, since the first image that showed it; the older one's is less
   WindowPlace place;
   double last_seen_sec = 0.0;
@@ -51,8 +51,10 @@ class FacadeMap {
   /// Measured, and as large as the window looked for.
   static bool isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for);
   /// \param wall in which unknown windows are taken to lie
-  /// \param looked_for size that windows are taken to have where nothing else tells their distance
-  void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for);
+  /// \param looked_for size that windows are taken to have where nothing else tells their distance; what is
+  /// less than half as wide or high is no window \param kept number of one that is not forgotten
+  void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
+           std::uint32_t kept = 0);
   /// A place that is better known than by one sight.
   void correct(std::uint32_t id, const WindowPlace& place);
 
@@ -77,7 +79,7 @@ class FacadeMap {
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
   void merge();
-  void prune(double stamp_sec);
+  void prune(const FacadeView& view, bool knows_wall, std::uint32_t kept);
   double squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const;
 
   FacadeParams params_;

@@ -43,7 +43,7 @@ class FacadeMemory {
   /// Where in the image the target must be, as it comes (distorted); nothing if it is not wholly in view.
   std::optional<geometry::Quadrilateral> expected(const Viewpoint& from) const;
 
-  Answer select(std::uint32_t id);
+  Answer select(std::uint32_t id);                         ///< 0: none is chosen any more
   Answer selectNear(const Eigen::Vector3d& point_odom_m);  ///< a click on it, or beside it
 
   /// Windows given up by who flies: closed, or tried in vain. Without `next_one` nothing takes the place of

@@ -43,6 +43,9 @@ std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const
 /// T_odom_window of an upright window.
 Eigen::Isometry3d poseOf(const WindowPlace& place);
 
+/// Where it is in the image, as that comes (distorted); nothing if it is not wholly in view.
+std::optional<geometry::Quadrilateral> inView(const WindowPlace& place, const Viewpoint& view);
+
 /// Squared distance of two places in standard deviations, of three degrees of freedom.
 /// \param drift_m2 variance that the odometry has gathered in between [m^2]
 double squaresBetween(const WindowPlace& a, const WindowPlace& b, double drift_m2);

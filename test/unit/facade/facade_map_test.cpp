@@ -114,7 +114,7 @@ TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
   std::mt19937 random(10);
   test::WindowRow row, panes;
   row.count = panes.count = 1;
-  panes.size = {0.55, 0.45};
+  panes.size = {0.7, 0.6};
   FacadeMap map{FacadeParams()};
   for (int n = 0; n < 30; ++n) {
     const auto view = row.from({-5.0, 0.5 - 0.03 * n, 1.5});
@@ -122,7 +122,66 @@ TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
   }
   ASSERT_EQ(map.windows().size(), 2u);
   for (const KnownWindow& window : map.windows())
-    EXPECT_NEAR(window.place.size.width_m, window.sights > 15 ? 1.2 : 0.55, 0.06);
+    EXPECT_NEAR(window.place.size.width_m, window.sights > 15 ? 1.2 : 0.7, 0.06);
+}
+
+TEST(FacadeMap, BeforeThereIsAWallNumbersOnlyWhatMayBeTheTarget) {
+  std::mt19937 random(14);
+  const test::WindowRow row;
+  FacadeMap map{FacadeParams()};
+  const auto see = [&](double begin_sec, const std::optional<Wall>& wall) {
+    for (int n = 0; n < 20; ++n) {
+      auto look = row.look(begin_sec + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
+      for (auto& seen : look.windows) seen.may_be_target = &seen == &look.windows.front();
+      map.see(look, wall, row.size);
+    }
+  };
+  see(10.0, std::nullopt);
+  EXPECT_EQ(confirmed(map), 1);
+  const auto seen = map.windows().size();
+  see(12.0, kWall);
+  EXPECT_EQ(confirmed(map), static_cast<int>(seen))
+      << "neighbours in its wall are listed, whatever their look";
+}
+
+TEST(FacadeMap, WhatIsLessThanHalfAsWideOrHighAsTheOneLookedForIsNoWindow) {
+  std::mt19937 random(12);
+  const test::WindowRow row;
+  for (const geometry::OpeningSize& size : {geometry::OpeningSize{0.24, 1.06}, {1.2, 0.2}}) {
+    test::WindowRow strips;
+    strips.size = size;
+    FacadeMap map{FacadeParams()};
+    for (int n = 0; n < 20; ++n)
+      map.see(strips.look(10.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random), kWall, row.size);
+    EXPECT_TRUE(map.windows().empty());
+  }
+}
+
+// By its outer border, and so taken for nearer.
+TEST(FacadeMap, ForgetsWhatWasGuessedAndIsNotThereButNotOutOfViewNorTheTarget) {
+  std::mt19937 random(13);
+  test::WindowRow row, outer;
+  outer.size = {2.4, 2.0};
+  const auto look = [&](FacadeMap& map, const test::WindowRow& what, const std::optional<Wall>& wall,
+                        double begin_sec, double heading_rad, std::uint32_t kept) {
+    const auto view = row.from({-7.0, -1.9, 1.5}, heading_rad);
+    for (int n = 0; n < 120; ++n)
+      map.see(what.look(begin_sec + 0.1 * n, view, -1, random), wall, row.size, kept);
+  };
+  FacadeMap before{FacadeParams()};
+  look(before, outer, std::nullopt, 10.0, 0.0, 0);
+  const int guessed = confirmed(before);
+  ASSERT_GT(guessed, 0);
+  ASSERT_LT(before.windows()[0].place.position_m.x(), -2.0);
+  FacadeMap seen = before, aside = before, kept = before;
+  look(seen, row, kWall, 22.0, 0.0, 0);
+  EXPECT_EQ(confirmed(seen), 4) << "those in view";
+  for (const KnownWindow& window : seen.windows()) EXPECT_TRUE(window.place.on_wall) << window.id;
+  look(aside, row, kWall, 22.0, 1.2, 0);
+  EXPECT_EQ(confirmed(aside), guessed);
+  const std::uint32_t target = before.windows()[0].id;
+  look(kept, row, kWall, 22.0, 0.0, target);
+  EXPECT_NE(kept.find(target), nullptr);
 }
 
 TEST(FacadeMap, DoesNotTakeALargeLoopForTheWindowBehindIt) {

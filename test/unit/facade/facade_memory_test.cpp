@@ -89,6 +89,15 @@ TEST(FacadeMemory, LetsTheOperatorChooseByNumberOrByAClick) {
   EXPECT_EQ(watch.memory.target(), &watch.at(0)) << "what was refused changes nothing";
 }
 
+TEST(FacadeMemory, AChoiceIsTakenBackByZero) {
+  Watch watch;
+  watch.look(20, 2);
+  ASSERT_TRUE(watch.memory.select(2).success);
+  EXPECT_TRUE(watch.memory.select(0).success);
+  EXPECT_FALSE(watch.memory.isChosen());
+  EXPECT_EQ(watch.memory.targetId(), 0u);
+}
+
 TEST(FacadeMemory, DoesNotLetAClosedWindowBeChosen) {
   Watch watch;
   watch.look(20, 2);
