@@ -28,7 +28,7 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, odom_frame, needs_package, needs_display, scenario, launch_folder;
+      image_transport, odom_frame, needs_package, needs_display, scenario, launch_folder, record;
 };
 
 tools::OptionList describe(Options& o) {
@@ -51,6 +51,7 @@ tools::OptionList describe(Options& o) {
   add("image-transport", o.image_transport, "by which images come");
   add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
+  add("record", o.record, "bag file to be written; refused if it is there");
   add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
   add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
   add("defaults", o.defaults, "yaml file that lies below FILE.yaml");
@@ -81,6 +82,8 @@ double checkReference(const Options& o, const std::string& file,
   if (!image.empty()) reference.picture = image, reference.corners.clear();
   if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
   if (reference.picture.empty()) {
+    if (!reference.corners.empty())
+      throw InputError(from + "reference corners without their image: give reference:= as well");
     if (o.needs_window_size == "true")
       tools::warn(
           "no reference image (reference:=, or window_detector/reference in the file): other windows and "
@@ -204,6 +207,13 @@ std::string existing(const std::string& file) {
   return file;
 }
 
+// rosbag replaces what is there without a word.
+void checkIsNew(const std::string& bag) {
+  if (!bag.empty() && std::filesystem::exists(bag))
+    throw InputError("record:=" + bag +
+                     " is there already: overwrite:=true replaces it, or give another name");
+}
+
 void checkOverlay(const Options& o, const std::string& file, configuration::Overlay& overlay,
                   tools::InputFaults& faults) {
   double aspect = 0.0;
@@ -244,6 +254,7 @@ int check(const Options& o) {
   if (is_read) checkOverlay(o, file, overlay, faults);
   faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
   if (!o.scenario.empty()) faults.collect([&] { simulation::loadScenario(o.scenario, 1); });
+  faults.collect([&] { checkIsNew(given(o.record)); });
   faults.throwIfAny();
   std::cout << file << "\n";
   return 0;

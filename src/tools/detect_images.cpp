@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -116,9 +117,17 @@ bool looksLikeImage(const fs::path& path) {
   return false;
 }
 
+// What is called otherwise is no table, but a picture or a parameter file that would be lost.
+void checkTable(const char* option, const std::string& file) {
+  const std::string extension = fs::path(file).extension().string();
+  if (!extension.empty() && extension != ".csv")
+    throw InputError(std::string(option) + " " + file + ": a csv file is written: end its name with .csv");
+}
+
 void check(const Options& o) {
-  if (looksLikeImage(o.output))
-    throw InputError("--output " + o.output + ": a csv file is written, no image");
+  checkTable("--output", o.output);
+  checkTable("--candidates", o.candidates);
+  if (o.candidates == o.output) throw InputError("--candidates " + o.candidates + ": is --output, too");
   if (o.inputs.empty()) throw InputError("no image given; see --help");
   if (!o.size.empty() && o.camera.empty())
     throw InputError("--window-size needs --camera: no pose without it");
@@ -136,11 +145,24 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
     std::vector<std::string> found;
     for (const auto& entry : fs::directory_iterator(input))
       if (entry.is_regular_file() && looksLikeImage(entry.path())) found.push_back(entry.path().string());
-    if (found.empty()) throw InputError(input + ": no image in this folder");
+    if (found.empty()) throw InputError(input + ": no image in this folder; folders in it are not searched");
     std::sort(found.begin(), found.end());
     images.insert(images.end(), found.begin(), found.end());
   }
   return images;
+}
+
+// An overlay has the name of its photograph.
+void checkOverlays(const Options& o, const std::vector<std::string>& images) {
+  for (const std::string& input : o.inputs)  // the next run would take the overlays for photographs
+    if (fs::is_directory(input) && fs::exists(o.overlay) && fs::equivalent(input, o.overlay))
+      throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
+  std::map<fs::path, std::string> named;
+  for (const std::string& file : images)
+    if (const auto [other, is_new] = named.emplace(fs::path(file).filename(), file);
+        !is_new && other->second != file)
+      throw InputError("--overlay " + o.overlay + ": one picture for both " + other->second + " and " + file +
+                       ": run each folder by itself");
 }
 
 detection::ReferenceAppearance readReference(const std::string& file, const std::vector<double>& v,
@@ -170,11 +192,6 @@ Job prepare(const Options& o) {
     tools::takeWindowSize("--window-size", o.size, params);
     if (job.camera) job.estimator.emplace(params);
   }
-  if (o.overlay.empty()) return job;
-  tools::makeFolder(o.overlay);
-  for (const std::string& input : o.inputs)  // the next run would take the overlays for photographs
-    if (fs::is_directory(input) && fs::equivalent(input, o.overlay))
-      throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
   return job;
 }
 
@@ -216,7 +233,9 @@ void begin(evaluation::OutputFile& output, const std::string& file, const std::s
 int run(const Options& o) {
   check(o);
   const std::vector<std::string> images = listImages(o.inputs);
+  if (!o.overlay.empty()) checkOverlays(o, images);
   const Job job = prepare(o);
+  if (!o.overlay.empty()) tools::makeFolder(o.overlay);
   WindowFinder finder(job.params, job.reference, o.track ? o.rate_hz : 0.0);
   evaluation::OutputFile output, candidates;
   begin(output, o.output, evaluation::detectionColumns() + finder.columns());

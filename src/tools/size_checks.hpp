@@ -56,12 +56,14 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
 
 inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
   const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
-  if (opening.scale_sigma > 0.0 || (width_m < opening.opening_width_m && height_m < opening.opening_height_m))
+  const double room_m = 2.0 * vehicle.margin_m;
+  if (opening.scale_sigma > 0.0 ||
+      (width_m + room_m < opening.opening_width_m && height_m + room_m < opening.opening_height_m))
     return;
   throw InputError(
       formatted("the vehicle, %g x %g m (twice vehicle/half_width_m, half_height_m), does not fit "
-                "through the opening, %g x %g m: measure both",
-                width_m, height_m, opening.opening_width_m, opening.opening_height_m));
+                "through the opening, %g x %g m, with %g m on each side (vehicle/margin_m): measure both",
+                width_m, height_m, opening.opening_width_m, opening.opening_height_m, vehicle.margin_m));
 }
 
 }  // namespace window_ingress::tools

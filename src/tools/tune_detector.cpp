@@ -193,7 +193,7 @@ int run(Job job) {
   if (job.source.empty()) throw InputError("no SOURCE given; see --help");
   if (!job.headless && job.output.empty())
     throw InputError("--output is missing: where 's' saves; see --help");
-  if (!job.overwrite) tools::checkReplacesNothing({job.output});
+  if (!job.overwrite) tools::checkReplacesNothing({job.output, job.sheet});
   if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
   auto start = tools::readParams(job.params, job.reference.picture, job.reference.corners);
   const auto fields = parameters::fieldsOf(start);

@@ -17,7 +17,7 @@ from window_ingress.msg import WindowDetection
 
 import support
 
-CAPTURE_FILE = "/tmp/window_detector_test_reference.png"  # as in window_detector.test
+CAPTURE_STEM = "/tmp/window_detector_test_reference"  # as in window_detector.test
 
 
 class WindowDetectorTest(unittest.TestCase):
@@ -133,15 +133,17 @@ class WindowDetectorTest(unittest.TestCase):
             answers.append(capture())
             return answers[-1].success
         support.wait_for(is_taken, "the reference captured")
-        self.assertIn(CAPTURE_FILE, answers[-1].message)
+        stem = os.path.splitext(answers[-1].message.rpartition("; written to ")[2])[0]
+        self.addCleanup(lambda: [os.remove(stem + end) for end in (".png", ".yaml", "_understood.png")])
+        self.assertTrue(stem.startswith(CAPTURE_STEM))
         window = self.windows.wait(lambda w: w.detected and w.appearance.compared, "a window compared with the reference")
         self.assertLess(window.appearance.bhattacharyya, 0.2)
         support.Diagnostics().wait("window_detector: reference", "live image", "distance")
-        with open(os.path.splitext(CAPTURE_FILE)[0] + ".yaml") as file:
+        with open(stem + ".yaml") as file:
             kept = yaml.safe_load(file)["window_detector"]["reference"]
-        self.assertEqual(kept["picture"], CAPTURE_FILE)
-        self.assertGreater(os.path.getsize(CAPTURE_FILE), 1000)
-        self.assertGreater(os.path.getsize(os.path.splitext(CAPTURE_FILE)[0] + "_understood.png"), 1000)
+        self.assertEqual(kept["picture"], stem + ".png")
+        self.assertGreater(os.path.getsize(stem + ".png"), 1000)
+        self.assertGreater(os.path.getsize(stem + "_understood.png"), 1000)
         for (x, y), wanted in zip(zip(kept["corners"][::2], kept["corners"][1::2]), support.CORNERS):
             self.assertAlmostEqual(x, wanted[0], delta=1.5)
             self.assertAlmostEqual(y, wanted[1], delta=1.5)

@@ -2,6 +2,7 @@
 unreadable input, 1 for a job that failed."""
 import pathlib
 import re
+import shutil
 import subprocess
 import time
 
@@ -281,6 +282,27 @@ def test_overlays_are_not_drawn_among_the_photographs(tmp_path, image):
     done = run("detect_images", "--output", tmp_path / "found.csv", "--overlay", image.parent, image.parent)
     assert_refused(done, 2, "--overlay", "the photographs lie there")
     assert not (tmp_path / "plain.png.png").exists()
+
+
+def test_one_overlay_does_not_replace_another(tmp_path, image):
+    twin = tmp_path / "other" / image.name
+    twin.parent.mkdir()
+    shutil.copy(image, twin)
+    command = "detect_images", "--output", tmp_path / "found.csv", "--overlay", tmp_path / "overlays"
+    assert_refused(run(*command, image, twin), 2, str(image), str(twin), "run each folder by itself")
+    assert run(*command, image, image.parent).returncode == 0, "one photograph, named twice"
+
+
+def test_a_table_replaces_nothing_but_a_table(tmp_path, image):
+    drone = tmp_path / "drone.yaml"
+    drone.write_text("vehicle: {half_width_m: 0.3}\n")
+    for option in ("--output", "--candidates"):
+        tables = {"--output": tmp_path / "found.csv", option: drone}
+        done = run("detect_images", *[word for pair in tables.items() for word in pair], image)
+        assert_refused(done, 2, option, "end its name with .csv")
+    assert drone.read_text().startswith("vehicle")
+    table = tmp_path / "found.csv"
+    assert_refused(run("detect_images", "--output", table, "--candidates", table, image), 2, "is --output, too")
 
 
 def test_a_good_parameter_file_is_named_on_a_line(tmp_path):

@@ -138,6 +138,7 @@ def test_only_what_has_no_default_is_listed_as_required(file):
     ("reference:=window.jpg", "reference:=window.jpg: give its whole path, as /"),
     ("reference:=~/window.jpg", f"give its whole path, as {pathlib.Path.home()}/window.jpg"),
     ("reference_corners:=1,2,3", "reference_corners: '1,2,3' is not 8 numbers"),
+    ("reference_corners:=1,2,3,2,3,4,1,4", "reference corners without their image: give reference:= as well"),
     ("window_size:=1.2", "window_size: '1.2' is not 2 numbers"), ("window_size:=0,1", "window_size 0,1: opening_width_m = 0 is not within"),
     ("config:=/nowhere/drone.yaml", "/nowhere/drone.yaml")])
 def test_an_argument_that_cannot_be_ends_the_launch_before_anything_starts(name, argument, said):
@@ -179,6 +180,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
 def test_what_a_launch_file_would_refuse_is_refused_by_hand_too(tmp_path):
     config, said = tmp_path / "drone.yaml", "homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}\n"
     for text, why in (("vehicle: {half_width_m: 0.7}", "does not fit through the opening, 1.3 x 1.1 m"),
+                      ("vehicle: {half_width_m: 0.62}", "with 0.05 m on each side (vehicle/margin_m)"),
                       ("ingress_navigator: {navigator: {limits: {min_height_m: 12}}}", "min_height_m must be below limits/max_height_m"),
                       ("window_detector: {reference: {picture: /nowhere.png}}", f"{config}: window_detector/reference/picture"),
                       ("window_pose: {rate_hz: 3}", "window_pose: unknown key; there is vehicle, window_detector, ")):
@@ -251,7 +253,7 @@ def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_pat
     if name == "sim":  # its vehicle is smaller than the package's
         assert run("roslaunch", "--nodes", *launch).returncode == 0
     else:
-        assert "does not fit through the opening, 0.45 x 0.4 m: measure both" in refusal(*launch)
+        assert "does not fit through the opening, 0.45 x 0.4 m, with 0.05 m on each side" in refusal(*launch)
     config.write_text("vehicle: {half_length_m: 0.25, half_width_m: 0.7, half_height_m: 0.12}\n"
                       "homography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
     assert run("roslaunch", "--nodes", *launch).returncode == 0
@@ -563,14 +565,27 @@ def test_a_simulated_flight_in_rviz_waits_for_it_and_stays_until_it_is_closed():
 
 
 @pytest.mark.parametrize("name", ["ingress", "replay", "px4", "ardupilot"])
-def test_size_and_corners_are_given_as_to_the_tools(name):
+def test_size_and_corners_are_given_as_to_the_tools(name, tmp_path):
+    image = tmp_path / "window.png"
+    cv2.imwrite(str(image), cv2.rectangle(numpy.full((120, 160, 3), 190, numpy.uint8), (40, 30), (120, 90), (20, 95, 225), 6))
     size, corners = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/corners"
     params = dump(name)["params"]
     assert (params[size.format("width")], params[size.format("height")], params[corners]) == (1.2, 1.0, [])
     for brackets in ("{}", "[{}]"):
-        params = dump(name, "window_size:=" + brackets.format("1.3,1.1"), "reference_corners:=" + brackets.format("1.5, 2,3,2,3,4,1,4"))["params"]
+        params = dump(name, "window_size:=" + brackets.format("1.3,1.1"), f"reference:={image}",
+                      "reference_corners:=" + brackets.format("40.5, 30,120,30,120,90,40,90"))["params"]
         assert (params[size.format("width")], params[size.format("height")]) == (1.3, 1.1)
-        assert params[corners] == [1.5, 2, 3, 2, 3, 4, 1, 4]
+        assert params[corners] == [40.5, 30, 120, 30, 120, 90, 40, 90]
+
+
+def test_a_recording_that_is_there_is_replaced_only_where_that_is_asked_for(tmp_path):
+    bag = tmp_path / "flight.bag"
+    launch = ROOT / "launch/sim.launch", f"record:={bag}"
+    assert run("roslaunch", "--nodes", *launch).returncode == 0
+    bag.write_text("of another flight")
+    assert f"record:={bag} is there already: overwrite:=true replaces it" in refusal(*launch)
+    assert run("roslaunch", "--nodes", *launch, "overwrite:=true").returncode == 0
+    assert run("roslaunch", "--nodes", ROOT / "launch/demo.launch", f"bag:={bag}").returncode == 0
 
 
 def recorded(*arguments):

@@ -53,3 +53,12 @@ def test_no_bag_is_said_in_one_line(tmp_path):
     assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
     done = learn(tmp_path / "none.bag", tmp_path / "mine.yaml")
     assert done.returncode == 2 and done.stderr == f"learn_vehicle: {tmp_path}/none.bag: No such file or directory\n"
+
+
+def test_a_file_that_is_there_is_replaced_only_where_that_is_asked_for(tmp_path):
+    bag = bag_of(tmp_path, [dict(response_measured=True, response=0.17)])
+    (tmp_path / "mine.yaml").write_text("of another vehicle")
+    done = learn(bag, tmp_path / "mine.yaml")
+    assert done.returncode == 2 and "mine.yaml is there already: --overwrite" in done.stderr
+    assert (tmp_path / "mine.yaml").read_text() == "of another vehicle"
+    assert learn(bag, tmp_path / "mine.yaml", "--overwrite").returncode == 0

@@ -110,6 +110,8 @@ def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
     assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {
         "edges": {"floor": 4.5}, "preprocess": {"equalise": True}, "max_candidates": 30}}}
     assert cv2.imread(str(sheet)).shape[1] > 1000
+    code, _, errors = answer("tune_detector", labelled, "--headless", "--sheet", labelled / "a.png")
+    assert code == 2 and "a.png is there already: --overwrite" in errors
     code, said, errors = answer("tune_detector", labelled / "a.png", "--headless", "--params", saved, "--set", "gates/min_area=0.5")
     assert code == 0 and "windows in 0 of 1 images" in said, errors
     code, _, errors = answer("detect_images", "--output", tmp_path / "found.csv", "--params", saved, labelled)

@@ -40,6 +40,16 @@ def fail(code, text):
     sys.exit(code)
 
 
+def add_overwrite(parser):
+    parser.add_argument("--overwrite", action="store_true", help="replaces files that are there already")
+
+
+def refuse_to_replace(parser, files, overwrite):
+    for file in files:
+        if os.path.isfile(file) and not overwrite:
+            fail(2, f"{parser.prog}: {file} is there already: --overwrite replaces it, or give another name")
+
+
 def rows_of(file):
     """Rows of a csv table, each by the names of its columns; all text."""
     with open(file, newline="", encoding="utf-8") as stream:

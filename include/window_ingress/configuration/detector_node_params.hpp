@@ -15,9 +15,9 @@ struct ReferenceParams {
   std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, x1 y1 .. x4
                                 ///< y4 from top left, clockwise [px]; empty: the whole image is the target
                                 ///< with its frame
-  std::string capture_file;  ///< JPEG or PNG file that ~capture_reference writes; beside it .yaml, these
-                             ///< parameters for it, and _understood.png, what is made of it; empty: nothing is
-                             ///< written
+  std::string capture_file;     ///< JPEG or PNG file that ~capture_reference writes, with a number if it is
+                                ///< there already; beside it .yaml, these parameters for it, and
+                                ///< _understood.png, what is made of it; empty: nothing is written
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("picture", self.picture);

@@ -181,8 +181,9 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
   response.message = "the window in the last image is the reference now";
   if (params_.reference.capture_file.empty()) return true;
   try {
-    saveReference(params_.reference.capture_file, reference);
-    response.message += "; written to " + params_.reference.capture_file;
+    const std::string file = unusedReferenceFile(params_.reference.capture_file);
+    saveReference(file, reference);
+    response.message += "; written to " + file;
   } catch (const InputError& error) {
     response.success = false;
     response.message += std::string(", but it is not kept: ") + error.what();

@@ -65,6 +65,19 @@ ReferenceFiles::ReferenceFiles(const std::string& file)
       overlay(std::filesystem::path(image).replace_extension(".yaml")),
       understood(image.parent_path() / (image.stem().string() + "_understood.png")) {}
 
+std::string unusedReferenceFile(const std::string& file) {
+  const std::filesystem::path asked(file);
+  std::filesystem::path name = asked;
+  const auto is_used = [&name] {
+    const ReferenceFiles files(name.string());
+    return std::filesystem::exists(files.image) || std::filesystem::exists(files.overlay) ||
+           std::filesystem::exists(files.understood);
+  };
+  for (int n = 2; is_used(); ++n)
+    name.replace_filename(asked.stem().string() + "_" + std::to_string(n) + asked.extension().string());
+  return name.string();
+}
+
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference) {
   const ReferenceFiles files(file);
   const geometry::Quadrilateral& opening = reference.opening();

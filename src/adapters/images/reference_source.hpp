@@ -38,6 +38,10 @@ struct ReferenceFiles {
   explicit ReferenceFiles(const std::string& file);
 };
 
+/// The file itself, or, where one of a reference's is there already, the first of FILE_2, FILE_3 .. without
+/// any.
+std::string unusedReferenceFile(const std::string& file);
+
 /// Writes all of them. \throws InputError that says which could not be written
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference);
 

@@ -2,7 +2,7 @@
 #include <window_ingress/FlightVerdict.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "simulation/flight_verdict.hpp"
+#include "simulation/referee.hpp"
 
 namespace window_ingress::adapters::msg_constants_test {
 

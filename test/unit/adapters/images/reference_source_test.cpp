@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "adapters/runtime/parameter_server.hpp"
@@ -39,6 +40,15 @@ TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
   const auto reference = loadReference(params, {});
   EXPECT_EQ(cv::norm(reference.image(), image, cv::NORM_INF), 0.0);
   for (int i = 0; i < 4; ++i) EXPECT_LT((reference.opening()[i] - window().opening[i]).norm(), 1e-3);
+}
+
+TEST_F(ReferenceSource, WhatIsThereAlreadyIsKept) {
+  const std::string file = (folder_ / "drone.png").string();
+  EXPECT_EQ(unusedReferenceFile(file), file);
+  std::ofstream(folder_ / "drone.yaml") << "vehicle: {}\n";
+  EXPECT_EQ(unusedReferenceFile(file), (folder_ / "drone_2.png").string());
+  saveReference(unusedReferenceFile(file), {window().draw(), window().opening});
+  EXPECT_EQ(unusedReferenceFile(file), (folder_ / "drone_3.png").string());
 }
 
 TEST_F(ReferenceSource, WhatCannotBeWrittenIsSaid) {
