@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Writes config/*.yaml, config/WindowDetector.cfg, doc/parameters.md and the tables of doc/scenarios.md from the
-parameter structs of the headers.
+parameter structs of the headers: write_parameter_files.py [--check]
 
 Every struct lists its fields once, in `visit`, with range; default and meaning stand at the member. This copies them
-into the files that users edit and that ROS reads. Run it after a change of a parameter; a unit test fails if files and
-structs differ. Usage: write_parameter_files.py [--check]
+into the files that ROS reads. Run it after a change of a parameter; a unit test fails if files and structs differ.
 """
+import argparse
 import re
 import sys
 from pathlib import Path
@@ -137,7 +137,8 @@ def commented(line, comment):
 
 
 def yaml_file(structs, kind, title):
-    lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by dev/write_parameter_files.py.",
+    lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by dev/write_parameter_files.py: the tools do not read it.",
+             "# What differs goes into a file of your own, for launch files config:=FILE, for tools --params FILE.",
              *yaml_lines(structs, find(structs, "configuration", kind), "")]
     return "\n".join(lines) + "\n"
 
@@ -278,6 +279,9 @@ def parameters_page(structs):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="writes nothing; exit code 1 if a file differs")
+    options = parser.parse_args()
     structs = read_structs()
     files = {
         "../doc/scenarios.md": scenarios_page(structs),
@@ -287,7 +291,7 @@ def main():
     }
     stale = [name for name, text in files.items()
              if not (ROOT / "config" / name).exists() or (ROOT / "config" / name).read_text() != text]
-    if "--check" in sys.argv[1:]:
+    if options.check:
         if stale:
             sys.exit(f"config/: {', '.join(stale)} differ from the structs; run dev/write_parameter_files.py")
         return

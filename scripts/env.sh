@@ -14,6 +14,14 @@ source_if_there() {
   if [ -f "$setup_file" ]; then set +u; source "$setup_file" "$@"; set -u; fi
 }
 
+# ROS names its masters by it; a bare root has no /etc/hosts.
+require_localhost() {
+  getent hosts localhost >/dev/null || {
+    echo "localhost has no address: echo '127.0.0.1 localhost' >>/etc/hosts" >&2
+    exit 1
+  }
+}
+
 # For a master of one's own.
 free_port() {
   /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'

@@ -17,6 +17,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools.command_line import Parser, fail, rows_of  # noqa: E402
 
+SAME_IOU = 0.7  # from here on the right window was found
+
 
 def cross(o, a, b):
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
@@ -171,7 +173,7 @@ def parser_for(description, table, text):
     parser.add_argument("--annotations", required=True)
     parser.add_argument("--meta", required=True)
     parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
-    parser.add_argument("--iou", type=float, default=0.7)
+    parser.add_argument("--iou", type=float, default=SAME_IOU)
     parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
     parser.add_argument("--per-scene", action="store_true")
     return parser

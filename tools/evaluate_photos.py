@@ -161,7 +161,7 @@ def parse():
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
     parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
-    parser.add_argument("--iou", type=float, default=0.7)
+    parser.add_argument("--iou", type=float, default=rules.SAME_IOU)
     parser.add_argument("--per-scene", action="store_true")
     parser.add_argument("--misses", action="store_true", help="list what was not found and what was found wrongly")
     parser.add_argument("--sheets", action="store_true", help="draw those images: OUTPUT/*_wrong.png")

@@ -105,9 +105,9 @@ def found_by(tool, folder, name, at, views, arguments):
 def verdict(quad, target, others):
     if quad is None:
         return "nothing"
-    if rules.iou(quad, target) >= 0.7:
+    if rules.iou(quad, target) >= rules.SAME_IOU:
         return "right"
-    return "twin" if any(rules.iou(quad, other) >= 0.7 for other in others) else "elsewhere"
+    return "twin" if any(rules.iou(quad, other) >= rules.SAME_IOU for other in others) else "elsewhere"
 
 
 def facade_of(name):

@@ -16,7 +16,6 @@ from ingress_tools import package_paths  # noqa: E402
 from ingress_tools.command_line import Parser  # noqa: E402
 
 DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
-SAME_IOU = 0.7
 
 
 def distance(p, q):
@@ -43,7 +42,7 @@ def score(detections, truth):
     frames = []
     for found, true in zip(detections, truth):
         quad, known = (rules.corners(found) if whole(found) else None), rules.corners(true)
-        tracked = quad is not None and rules.iou(quad, known) >= SAME_IOU
+        tracked = quad is not None and rules.iou(quad, known) >= rules.SAME_IOU
         frames.append((tracked, corner_errors(quad, known) if tracked else None, found.get("target_id", "")))
     return frames
 

@@ -17,11 +17,10 @@ std::string contradictedText(const Consistency& consistency) {
                    consistency.refused, consistency.refused + consistency.images);
 }
 
-// More than any heading that is off for long: it was turned a moment ago, or the camera is mounted askew.
 std::string turnedText(const CameraTurn& camera) {
-  constexpr double kMaxTurnRad = 0.09, kCertainSigmas = 2.0;
+  constexpr double kCertainSigmas = 2.0;
   const double turn_rad = camera.turn_rad.y(), sigma_rad = std::sqrt(camera.covariance(1, 1));
-  if (!(std::abs(turn_rad) - kCertainSigmas * sigma_rad > kMaxTurnRad)) return "";
+  if (!(std::abs(turn_rad) - kCertainSigmas * sigma_rad > kMaxTurnWithHeadingRad)) return "";
   return formatted("camera's yaw or odometry's heading off by about %.0f deg",
                    std::abs(turn_rad) * geometry::kDegreesPerRad);
 }

@@ -175,7 +175,7 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   if (!camera_faults.empty()) return rejected(PoseReject::kBadCamera, parameters::joined(camera_faults));
   if (!std::isfinite(window.stamp_sec)) return rejected(PoseReject::kNotFinite, "the stamp is not finite");
   const PoseHints hints = usable(given);
-  const std::string fault = faultOfCorners(window, camera, hints.prior ? 2 : 4);
+  const std::string fault = faultOfCorners(window, camera, hints.prior.has_value());
   if (!fault.empty()) return rejected(PoseReject::kBadCorners, fault);
 
   const Eigen::Vector3d up =

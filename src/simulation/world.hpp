@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/flight_verdict.hpp"
+#include "simulation/referee.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scene/scene.hpp"
 #include "simulation/schedule.hpp"

@@ -10,7 +10,7 @@ import pytest
 from geometry_msgs.msg import TransformStamped
 
 from ingress_tools import findings, live_system, observed_system, remedies, topic_checks
-from repository import ROOT, load, run
+from repository import ROOT, call, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
 
@@ -304,3 +304,10 @@ def test_only_a_master_elsewhere_asks_for_this_machines_address(doctor, monkeypa
 def test_wrong_usage(words):
     done = run("doctor", *words, env={**os.environ, "ROS_MASTER_URI": "http://localhost:1"})
     assert done.returncode == 2 and "Traceback" not in done.stderr and words[0] in done.stderr, done.stderr
+
+
+def test_helps_before_the_package_is_built():
+    env = {"PATH": "/usr/bin:/bin"}  # without what was built
+    done = call(ROOT / "tools/doctor", "--help", env=env)
+    assert done.returncode == 0 and "the command that mends it" in done.stdout, done
+    assert call(ROOT / "tools/doctor", env=env).returncode == 2

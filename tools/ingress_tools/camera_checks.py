@@ -1,5 +1,5 @@
 """Whether the camera is calibrated, and where it sits: a part of doctor."""
-from ingress_tools.remedies import REMEDIES, remedy
+from ingress_tools.remedies import remedy
 
 LOOKS_FORWARD = 0.7  # least part of an axis: some 45 degrees
 
@@ -15,7 +15,7 @@ def check_calibration(system, report):
     if not any(info.K):
         report.error(f"{topic}: not calibrated, K is all zero", calibrate, [topic])
     elif size and size != (info.width, info.height):
-        report.error(f"{topic}: for {info.width}x{info.height}, the image on {image} has {size[0]}x{size[1]}", REMEDIES[4][1], [topic])
+        report.error(f"{topic}: for {info.width}x{info.height}, the image on {image} has {size[0]}x{size[1]}", remedy("sizes differ"), [topic])
     else:
         report.ok(f"{topic}: calibrated, fx {info.K[0]:.1f} px, {info.width}x{info.height} as the image, frame {info.header.frame_id}")
 

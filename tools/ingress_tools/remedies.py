@@ -1,4 +1,4 @@
-"""What mends what nodes say, and what they miss: the advice of the doctor."""
+"""What mends what nodes say in /diagnostics, and topics that are missing. What mends a check's own finding stands with the check."""
 import re
 
 from ingress_tools.observed_system import ARGUMENTS, NODES

@@ -1,6 +1,6 @@
 """Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
 from ingress_tools.observed_system import ARGUMENTS
-from ingress_tools.remedies import AGAIN, REMEDIES, another_topic
+from ingress_tools.remedies import AGAIN, another_topic, remedy
 
 SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
 DAY_S = 86400.0
@@ -33,7 +33,7 @@ def check_age(report, topic, publisher, sample, **place):
     text = f"{topic}: {sample.rate_hz():.1f} Hz from {publisher}"
     if abs(age) > DAY_S:
         when = "old" if age > 0.0 else "ahead of the clock"
-        mend = REMEDIES[2][1] if age > 0.0 else REMEDIES[1][1]
+        mend = remedy("recorded data" if age > 0.0 else "is use_sim_time set")
         report.error(f"{text}, stamps {abs(age) / DAY_S:.0f} days {when}", mend, [topic], **place)
     elif not -0.1 <= age <= 0.5:
         report.error(f"{text}, stamps {abs(age):.2f} s {'old' if age > 0.0 else 'ahead of the clock'}",

@@ -30,7 +30,6 @@ struct FilterParams {
   bool yaw_bias_lasts = true;            // what was found of it outlives a new start
   double trusted_yaw_sigma_rad = 0.06;   // largest of a trusted hypothesis
   double heading_bias_sigma_rad = 1e-6;  // of odometry beside its positions, if not learned with the yaw
-  double late_sigma_sec = 0.08;          // of odometry's stamps beside the images'
   int outliers_until_restart = 5;        // in a row
 
   static constexpr double kKnownSizeSigma = 0.003;  ///< relative error of a size that is called known

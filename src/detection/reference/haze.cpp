@@ -1,13 +1,19 @@
 #include "detection/reference/haze.hpp"
 
+#include <cmath>
+
 namespace window_ingress::detection {
 namespace {
 
 constexpr double kMinLeft = 0.06, kMaxLeft = 0.85;
-constexpr float kDarkest = 40.0F;   ///< a thinner haze changes little [grey levels]
-constexpr float kGreyest = 0.75F;   ///< least over greatest channel of haze and glare, at least
-constexpr float kTolerance = 8.0F;  ///< of the darkest place: noise [grey levels]
-constexpr float kUneven = 0.08F;    ///< and this part of the haze: what is nearer has less of it
+constexpr float kDarkest = 40.0F;         ///< a thinner haze changes little [grey levels]
+constexpr float kGreyest = 0.75F;         ///< least over greatest channel of haze and glare, at least
+constexpr float kTolerance = 8.0F;        ///< of the darkest place: noise [grey levels]
+constexpr float kUneven = 0.08F;          ///< and this part of the haze: what is nearer has less of it
+constexpr double kMinDifference = 25.0;   ///< of the reference's frame and surround [grey levels]
+constexpr double kClearOfNoise = 5.0;     ///< standard deviations that are left of that difference
+constexpr double kTurn_rad = 0.05;        ///< standard deviation of its direction, from paint and light
+constexpr double kMaxThroughHaze = 0.45;  ///< in fog it is 0.25 and less, for other paint 0.7
 
 }  // namespace
 
@@ -19,6 +25,22 @@ std::optional<Haze> hazeThatLeaves(double left, const Eigen::Vector3f& reference
   if (!(least > kDarkest) || least < kGreyest * most) return std::nullopt;
   if ((1.0F - kUneven) * least > static_cast<float>(darkest) + kTolerance) return std::nullopt;
   return haze;
+}
+
+std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen) {
+  const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
+  const double square = expected.squaredNorm();
+  if (square < kMinDifference * kMinDifference) return std::nullopt;
+  const double left = found.dot(expected) / square, along = left * std::sqrt(square);
+  if (!(along > kClearOfNoise * seen.sigma)) return std::nullopt;
+  if (!hazeThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
+  const double across = (found - static_cast<float>(left) * expected).norm() / along;
+  const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
+  return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));
+}
+
+bool isSameThroughHaze(const RingMeans& reference, const RingMeans& seen) {
+  return distanceThroughHaze(reference, seen).value_or(1.0) < kMaxThroughHaze;
 }
 
 }  // namespace window_ingress::detection

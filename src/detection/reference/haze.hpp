@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "detection/reference/ring_histogram.hpp"
+
 namespace window_ingress::detection {
 
 /// Haze, or glare on the lens, between camera and window: of each colour a part is left, and the same light
@@ -24,5 +26,12 @@ struct Haze {
 ///         the darkest place
 std::optional<Haze> hazeThatLeaves(double left, const Eigen::Vector3f& reference_wall,
                                    const Eigen::Vector3f& seen_wall, double darkest);
+
+/// Bhattacharyya distance of two normal distributions of what haze has left of the difference between frame
+/// and surround, by its direction. \return nothing where there is no haze, or it has left less than noise
+std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen);
+
+/// True if haze alone may be what makes the one of the other.
+bool isSameThroughHaze(const RingMeans& reference, const RingMeans& seen);
 
 }  // namespace window_ingress::detection

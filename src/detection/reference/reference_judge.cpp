@@ -5,6 +5,7 @@
 
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/quads.hpp"
+#include "detection/reference/haze.hpp"
 #include "detection/reference/ring_histogram.hpp"
 
 namespace window_ingress::detection {
@@ -23,8 +24,6 @@ constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlation, whe
 constexpr int kAllBorders = 4;
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
-constexpr double kMaxThroughHaze =
-    0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
 constexpr double kUnlocatedPart =
@@ -223,7 +222,7 @@ bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral&
                             const RingMatch& match) const {
   if (!frame_colours_ || match.contrast >= kMinClearContrast * match.correlation) return false;
   const auto seen = ringColours(image, corners, RingWidths(), 1);
-  return seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze;
+  return seen && isSameThroughHaze(frame_colours_->means, seen->means);
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring, const cv::Mat& image,

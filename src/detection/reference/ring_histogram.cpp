@@ -19,10 +19,7 @@ constexpr double kBandWeight[RingHistogram::kBands] = {2.0, 1.0};
 /// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
 constexpr double kSharing = 4.0 / 9.0;
 
-constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
-constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
-constexpr float kMinPaint = 0.05F;     ///< of chromaticities
-constexpr double kMinDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
+constexpr float kMinPaint = 0.05F;  ///< of chromaticities
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
 
@@ -163,18 +160,6 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
     weights += kBandWeight[i];
   }
   return weights > 0.0 ? std::sqrt(std::clamp(sum / weights, 0.0, 1.0)) : 1.0;
-}
-
-std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen) {
-  const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
-  const double square = expected.squaredNorm();
-  if (square < kMinDifference * kMinDifference) return std::nullopt;
-  const double left = found.dot(expected) / square, along = left * std::sqrt(square);
-  if (!(along > kClearOfNoise * seen.sigma)) return std::nullopt;
-  if (!hazeThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
-  const double across = (found - static_cast<float>(left) * expected).norm() / along;
-  const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
-  return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));
 }
 
 double bhattacharyya(const RingColours& reference, const RingColours& seen) {

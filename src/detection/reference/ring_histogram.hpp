@@ -61,11 +61,6 @@ std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Qua
 /// sum times 8 is Freeman and Tukey's statistic, chi-square in the limit). That much is taken off.
 double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 
-/// The same for two normal distributions of what haze has left of the difference between frame and
-/// surround, by its direction: the turn that light and paint may show is a standard deviation of kTurn_rad.
-/// \return nothing where there is no haze, or it has left less than noise
-std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen);
-
 /// The smaller of the distances as seen and through haze.
 double bhattacharyya(const RingColours& reference, const RingColours& seen);
 

@@ -7,9 +7,6 @@
 namespace window_ingress::detection {
 namespace {
 
-using geometry::Quadrilateral;
-
-constexpr double kFoundSigmaPx = 0.3;     // of corners just found
 constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
 
 }  // namespace
@@ -18,23 +15,6 @@ std::optional<WindowObservation> WindowTracker::Impl::lookForWindow(const TrackI
   was_searched = true;
   searched_sec = input.stamp_sec;
   return detector.detect(input.image, input.stamp_sec, input.camera);
-}
-
-// The search's window becomes the one that is own_trace.
-void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
-  const Quadrilateral quad = undistorted(found.corners, images.lens());
-  memory.found(is_same, input.stamp_sec);
-  if (is_same)
-    recheck.restart(), reference.restart();
-  else
-    recheck.start(), reference.start();
-  found.target_id = memory.id();
-  motion.start(quad, kFoundSigmaPx);
-  quad_tracker.learn(input.image, images.lens(), quad, input.camera && reference.isKnown());
-  frames_to_alignment = 0;
-  certainty = std::max(found.score, 2.0 * kMinCertainty);
-  window = found;
-  tracking = has_motion = true;
 }
 
 // A window that the search passed over for a better one, where the old one must be, of several the best;

@@ -16,7 +16,9 @@ constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference foll
 constexpr double kTurn = 0.12;           ///< unforeseen motion of its place [longer image sides/s]
 constexpr double kKnownTurn =
     0.5;  ///< part of the unforeseen motion that is left where the attitude is known
+constexpr double kMinCertainty = 0.4;    // below it the track is lost, 0 to 1
 constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
+constexpr double kFoundSigmaPx = 0.3;    // of corners just found
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
 constexpr int kAlignEvery = 3;           // frames
@@ -81,6 +83,23 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   watch(input);
   window.score = std::clamp(certainty, 0.0, 1.0);
   return true;
+}
+
+// The search's window becomes the one that is followed.
+void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
+  const geometry::Quadrilateral quad = undistorted(found.corners, images.lens());
+  memory.found(is_same, input.stamp_sec);
+  if (is_same)
+    recheck.restart(), reference.restart();
+  else
+    recheck.start(), reference.start();
+  found.target_id = memory.id();
+  motion.start(quad, kFoundSigmaPx);
+  quad_tracker.learn(input.image, images.lens(), quad, input.camera && reference.isKnown());
+  frames_to_alignment = 0;
+  certainty = std::max(found.score, 2.0 * kMinCertainty);
+  window = found;
+  tracking = has_motion = true;
 }
 
 void WindowTracker::Impl::watch(const TrackInput& input) {

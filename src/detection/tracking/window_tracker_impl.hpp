@@ -18,8 +18,6 @@
 
 namespace window_ingress::detection {
 
-constexpr double kMinCertainty = 0.4;  ///< below this the track is given up and the window searched, 0 to 1
-
 struct WindowTracker::Impl {
   explicit Impl(const DetectorParams& p)
       : params(p),

@@ -15,7 +15,6 @@ constexpr char kNothingYet[] = "camera mounting: no way flown yet";
 constexpr double kLastingSec = 10000.0;                    // a mounting does not change
 constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
-constexpr double kMaxTurnWithHeadingRad = 0.09;            // more than any heading that is off for long
 constexpr double kHeadingSigmaRad = 0.03;                  // of odometry beside its positions: a compass
 constexpr double kFaultSigmas = 2.0;                       // that it is turned
 constexpr double kCertainSigmas = 2.5;                     // that it is not, and that the size is another one

@@ -12,6 +12,9 @@
 
 namespace window_ingress::estimation {
 
+/// More than any heading that is off for long: it was turned a moment ago, or the camera is mounted askew.
+constexpr double kMaxTurnWithHeadingRad = 0.09;
+
 /// Whether the camera looks where its mounting says, and the opening has the size it is said to have: a
 /// filter of its own that knows neither, fed with images a little apart. What moves past the camera while
 /// odometry flies a known way tells both. Heading and stamps of odometry may be off, too.

@@ -18,6 +18,7 @@ using Weight = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 constexpr int kMaxDescents = 20;
 constexpr double kConverged = 1e-5;  // of a step's squared Mahalanobis length
 constexpr double kPriorPositionSigmaM = 3.0, kPriorYawSigmaRad = 0.7;
+constexpr double kLateSigmaSec = 0.08;   // of odometry's stamps beside the images'
 constexpr double kStandingSigma = 1e-6;  // heights per second: beyond all doubt, yet invertible
 
 template <typename Llt>
@@ -130,7 +131,7 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), kPriorYawSigmaRad,
       params.attitude_bias_sigma_rad, yaw_bias.sigma_rad, params.attitude_bias_sigma_rad;
   sigma(WindowState::kHeadingBias) = params.heading_bias_sigma_rad;
-  sigma(WindowState::kLate) = params.late_sigma_sec;
+  sigma(WindowState::kLate) = kLateSigmaSec;
   covariance_ = sigma.cwiseAbs2().asDiagonal();
   Eigen::Matrix2d aspect_and_scale;
   aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;

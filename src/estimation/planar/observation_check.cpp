@@ -10,6 +10,7 @@ namespace {
 
 using detection::WindowObservation;
 
+constexpr int kSidesAlone = 4, kSidesWithPrior = 2;  // that a partial observation must show
 constexpr double kMinSidePx = 4.0;
 constexpr double kMinCornerAngleRad = 0.15;  // interior angles stay this far from 0 and pi
 
@@ -40,18 +41,19 @@ WindowObservation startedAt(const WindowObservation& window, int first) {
   return out;
 }
 
-std::string missingSides(const WindowObservation& window, int sides) {
+std::string missingSides(const WindowObservation& window, bool has_prior) {
   static const char* const kNames[] = {"top", "right", "bottom", "left"};
   std::string unseen;
   for (int i = 0; i < 4; ++i)
     if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
   return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen + " not seen; " +
-         (sides == 4 ? "no pose from this image alone" : "too few even with a prior pose");
+         (has_prior ? "too few even with a prior pose" : "no pose from this image alone");
 }
 
 std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           int sides) {
-  if (window.visibleSides() < sides) return missingSides(window, sides);
+                           bool has_prior) {
+  if (window.visibleSides() < (has_prior ? kSidesWithPrior : kSidesAlone))
+    return missingSides(window, has_prior);
   const double margin = std::max(camera.width, camera.height);
   for (const auto& edge : window.edges) {
     if (!edge.visible) continue;
@@ -72,8 +74,8 @@ bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera
 }
 
 std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           int sides) {
-  if (!window.whole()) return faultOfPartial(window, camera, sides);
+                           bool has_prior) {
+  if (!window.whole()) return faultOfPartial(window, camera, has_prior);
   if (!geometry::isFinite(window.corners)) return "a corner is not finite";
   if (!isNearImage(window.corners, camera))
     return "a corner lies more than an image's size outside the image";

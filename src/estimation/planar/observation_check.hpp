@@ -8,10 +8,9 @@
 namespace window_ingress::estimation {
 
 /// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried. A partial
-/// observation with less than four borders has its reason, too: alone it gives no pose.
-/// \param sides least number of visible borders of a partial observation: 4, or 2 with a prior pose
+/// observation must show all four borders, or two where there is a prior pose.
 std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                           int sides = 4);
+                           bool has_prior);
 
 /// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
 /// ones are put upright.

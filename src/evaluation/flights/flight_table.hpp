@@ -12,7 +12,7 @@
 
 #include "evaluation/flights/flight_observer.hpp"
 #include "evaluation/statistics.hpp"
-#include "simulation/flight_verdict.hpp"
+#include "simulation/referee.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
 

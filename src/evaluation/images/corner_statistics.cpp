@@ -1,17 +1,10 @@
 #include "evaluation/images/corner_statistics.hpp"
 
-#include "detection/quads.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace window_ingress::evaluation {
 
 using geometry::Quadrilateral;
-
-namespace {
-
-constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
-
-}  // namespace
 
 void CornerStatistics::add(const Quadrilateral& found, const Quadrilateral& truth) {
   for (int i = 0; i < 4; ++i) {
@@ -36,10 +29,6 @@ double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
   return 0.25 * sum;
-}
-
-double hitTolerance(const Quadrilateral& truth) {
-  return std::max(kTolerance_px, kTolerance * detection::meanSide(truth));
 }
 
 }  // namespace window_ingress::evaluation

@@ -31,7 +31,4 @@ class CornerStatistics {
 
 double meanCornerDistance(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);  ///< [px]
 
-/// 3 px or 2 % of the true border's mean side, whichever is more [px].
-double hitTolerance(const geometry::Quadrilateral& truth);
-
 }  // namespace window_ingress::evaluation

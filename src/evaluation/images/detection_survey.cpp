@@ -4,6 +4,7 @@
 
 #include "detection/quads.hpp"
 #include "evaluation/csv.hpp"
+#include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kOnTargetIou = 0.5, kOnBorderIou = 0.8;
+constexpr double kOnBorderIou = 0.8;
 
 // Of the candidates that lie on the true border, the one that got farthest.
 std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Quadrilateral& truth) {
@@ -85,7 +86,7 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   };
   if (truth.outer) consider(*truth.outer, SurveyVerdict::kOuterBorder);
   consider(truth.far, SurveyVerdict::kFarBorder);
-  if (geometry::intersectionOverUnion(*found, *nearest) < kOnTargetIou) return SurveyVerdict::kWrongTarget;
+  if (geometry::intersectionOverUnion(*found, *nearest) < kOtherWindowIou) return SurveyVerdict::kWrongTarget;
   if (border != SurveyVerdict::kInexact) return border;
   return detection::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit
                                                                                      : border;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "evaluation/csv.hpp"
+#include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/output_file.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
@@ -111,7 +112,7 @@ DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
     if (window)
       for (const auto& target : sample.targets)
         best = std::max(best, geometry::intersectionOverUnion(window->corners, target));
-    const bool hit = best >= DetectionCounts::kSameIou;
+    const bool hit = best >= kSameWindowIou;
     counts.found += hit;
     counts.overlap += hit ? best : 0.0;
     counts.missed += !sample.targets.empty() && !hit;

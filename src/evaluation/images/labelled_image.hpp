@@ -25,10 +25,8 @@ struct LabelledImage {
 };
 
 /// What the detector made of some images. Found: a detection whose overlap with a target is at least
-/// `kSameIou`; any other detection is false.
+/// `kSameWindowIou`; any other detection is false.
 struct DetectionCounts {
-  static constexpr double kSameIou = 0.7;
-
   int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed`: of the images with a target
   double overlap = 0.0;                  ///< sum of the overlaps of those found
 

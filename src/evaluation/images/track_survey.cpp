@@ -5,6 +5,7 @@
 
 #include "detection/quads.hpp"
 #include "evaluation/images/detection_survey.hpp"
+#include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/text/text.hpp"
 

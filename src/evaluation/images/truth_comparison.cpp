@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "evaluation/images/track_survey.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -12,6 +13,8 @@
 namespace window_ingress::evaluation {
 namespace {
 
+constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
+
 bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCamera& camera) {
   const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
   return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
@@ -20,6 +23,10 @@ bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCame
 double medianOrZero(std::vector<double> values) { return values.empty() ? 0.0 : geometry::median(values); }
 
 }  // namespace
+
+double hitTolerance(const geometry::Quadrilateral& truth) {
+  return std::max(kTolerance_px, kTolerance * detection::meanSide(truth));
+}
 
 TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& window,
                              const std::optional<Eigen::Isometry3d>& estimate,

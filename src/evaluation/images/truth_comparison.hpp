@@ -12,6 +12,12 @@
 
 namespace window_ingress::evaluation {
 
+/// When a detection is right.
+constexpr double kSameWindowIou = 0.7;   ///< from here on the right window was found
+constexpr double kOtherWindowIou = 0.5;  ///< below it something else was taken for the window
+/// Of each corner: 3 px or 2 % of the true border's mean side, whichever is more [px].
+double hitTolerance(const geometry::Quadrilateral& truth);
+
 /// One image against the truth about it.
 struct TruthErrors {
   bool whole = false;  ///< the image shows the opening whole, from its front
@@ -19,8 +25,7 @@ struct TruthErrors {
   std::optional<geometry::Quadrilateral> truth;  ///< the opening's border, if seen from its front
   bool detected = false;
   std::optional<geometry::Quadrilateral> found;  ///< what was detected, if all of its corners are seen
-  /// Of a detection that is not whole: its sides lie on the true ones, to 2 % of the window's mean side or 3
-  /// px.
+  /// Of a detection that is not whole: its sides lie on the true ones, to `hitTolerance`.
   bool on_true_sides = false;
   double true_distance_m = 0.0;      ///< camera to the opening's centre
   double true_yaw_rad = 0.0;         ///< of the window's axis against the camera's, positive to the left
@@ -37,9 +42,6 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
 
 /// Many images.
 struct TruthSummary {
-  static constexpr double kSameWindowIou = 0.7;   ///< from here on the right window was found
-  static constexpr double kOtherWindowIou = 0.5;  ///< below it something else was taken for the window
-
   int images = 0;
   int whole = 0;      ///< images that show the opening whole
   int found = 0;      ///< of those: the right window found

@@ -8,9 +8,6 @@
 namespace window_ingress::navigation {
 namespace {
 
-// After a gap, in which the way is not known: less than what ends all places (`TargetEstimator::isJump`),
-// because a vehicle in the opening has only centimetres.
-constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0;
 constexpr double kFramesSec = 3.0;
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }

@@ -61,7 +61,10 @@ class ContinuousOdometry {
  private:
   static constexpr double kSecond = 1.0;
   static constexpr double kTurnJumpRad = 0.08;  ///< in one sample, beside what a vehicle turns
-  static constexpr std::size_t kPieces = 16;    ///< a slide of three seconds is a minority of them
+  /// After a gap, in which the way is not known: less than what ends all places (`TargetEstimator::isJump`),
+  /// because a vehicle in the opening has only centimetres.
+  static constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0;
+  static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
     Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();

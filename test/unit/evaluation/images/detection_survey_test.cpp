@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "evaluation/images/truth_comparison.hpp"
+
 namespace window_ingress::evaluation::detection_survey_test {
 
 using Eigen::Vector2d;

@@ -1,4 +1,4 @@
-#include "simulation/flight_verdict.hpp"
+#include "simulation/referee.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation::flight_verdict_test {
+namespace window_ingress::simulation::referee_test {
 
 // The course of a real scenario, so that the referee is tested against the walls that are drawn.
 class Flight : public testing::Test {
@@ -213,4 +213,4 @@ TEST(Obstacle, TurnedBoxesTouchExactlyWhenTheyShouldAlongEdges) {
   EXPECT_TRUE(touches(geometry::makePose(eighth, {0, 0, 0}), half, cube)) << "one within the other";
 }
 
-}  // namespace window_ingress::simulation::flight_verdict_test
+}  // namespace window_ingress::simulation::referee_test

@@ -1,4 +1,4 @@
-#include "simulation/flight_verdict.hpp"
+#include "simulation/referee.hpp"
 
 #include <algorithm>
 #include <cmath>
