@@ -16,15 +16,16 @@ constexpr double kForgetGuessSec = 8.0;    // one whose distance was guessed, an
 constexpr double kMinSize = 0.5;           // of the size looked for: paving stones, panes, strips of a frame
 constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights over what the filter is told
 constexpr double kSizeRatio = 1.35;        // beyond which two loops are not one window
+constexpr double kOnWallRatio = 1.5;       // of sizes measured there: one may be cut off, the other a frame's
 
-bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b) {
+bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b, double ratio) {
   const double wider = a.width_m / b.width_m, higher = a.height_m / b.height_m;
-  return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < kSizeRatio;
+  return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < ratio;
 }
 
 // Where both were measured: a pane, or what is seen through the window, is not the window.
 bool sizesAgree(const WindowPlace& a, const WindowPlace& b) {
-  return !a.on_wall || !b.on_wall || areAlike(a.size, b.size);
+  return !a.on_wall || !b.on_wall || areAlike(a.size, b.size, kOnWallRatio);
 }
 
 // Where neither was measured: both are as far away as the size looked for says, and another distance is
@@ -104,7 +105,7 @@ void FacadeMap::learn(double stamp_sec, Sight& sight) {
 }
 
 bool FacadeMap::isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for) {
-  return window.place.on_wall && areAlike(window.place.size, looked_for);
+  return window.place.on_wall && areAlike(window.place.size, looked_for, kSizeRatio);
 }
 
 void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {

@@ -184,6 +184,18 @@ TEST(FacadeMap, ForgetsWhatWasGuessedAndIsNotThereButNotOutOfViewNorTheTarget) {
   EXPECT_NE(kept.find(target), nullptr);
 }
 
+TEST(FacadeMap, AWindowCutOffByTheImageIsTheOneThatWasSeenByItsFramesOuterBorder) {
+  std::mt19937 random(15);
+  test::WindowRow cut, outer;
+  cut.count = outer.count = 1;
+  cut.size = {0.92, 0.95}, outer.size = {1.34, 1.06};
+  FacadeMap map{FacadeParams()};
+  for (int n = 0; n < 30; ++n)
+    map.see((n % 3 == 0 ? outer : cut).look(10.0 + 0.1 * n, cut.from({-5.0, 0.0, 1.5}), -1, random), kWall,
+            {1.2, 1.0});
+  EXPECT_EQ(map.windows().size(), 1u);
+}
+
 TEST(FacadeMap, DoesNotTakeALargeLoopForTheWindowBehindIt) {
   std::mt19937 random(11);
   test::WindowRow row, loop;
