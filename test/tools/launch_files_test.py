@@ -248,12 +248,12 @@ def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_pat
     if name != "sim":
         assert run("roslaunch", "--nodes", *launch, "fly:=false").returncode == 0
     config.write_text((VEHICLE.read_text() if name == "px4" else "") +
-                      "homography_pose: {pose: {opening_width_m: 0.45, opening_height_m: 0.4}}\n")
+                      "homography_pose: {pose: {opening_width_m: 0.55, opening_height_m: 0.4}}\n")
     launch = (ROOT / f"launch/{name}.launch", f"config:={config}")
     if name == "sim":  # its vehicle is smaller than the package's
         assert run("roslaunch", "--nodes", *launch).returncode == 0
     else:
-        assert "does not fit through the opening, 0.45 x 0.4 m, with 0.05 m on each side" in refusal(*launch)
+        assert "does not fit through the opening, 0.55 x 0.4 m, with 0.05 m on each side" in refusal(*launch)
     config.write_text("vehicle: {half_length_m: 0.25, half_width_m: 0.7, half_height_m: 0.12}\n"
                       "homography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
     assert run("roslaunch", "--nodes", *launch).returncode == 0
