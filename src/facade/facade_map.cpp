@@ -12,7 +12,7 @@ constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two wind
 
 constexpr double kMaxSquares = 3.5 * 3.5;  // Mahalanobis, of a place from the window that it belongs to
 constexpr double kForgetSec = 2.0;         // a window that has no number yet
-constexpr double kForgetGuessSec = 8.0;    // one whose distance was guessed, and which is not seen there
+constexpr double kForgetGuessSec = 3.0;    // one whose distance was guessed, and which is not seen there
 constexpr double kMinSize = 0.5;           // of the size looked for: paving stones, panes, strips of a frame
 constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights over what the filter is told
 constexpr double kSizeRatio = 1.35;        // beyond which two loops are not one window
