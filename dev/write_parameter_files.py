@@ -138,7 +138,7 @@ def commented(line, comment):
 
 def yaml_file(structs, kind, title):
     lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by dev/write_parameter_files.py: the tools do not read it.",
-             "# What differs goes into a file of your own, for launch files config:=FILE, for tools --params FILE.",
+             *OWN_FILE.get(kind, ["# What differs goes into a file of your own, for launch files config:=FILE, for tools --params FILE."]),
              *yaml_lines(structs, find(structs, "configuration", kind), "")]
     return "\n".join(lines) + "\n"
 
@@ -237,6 +237,7 @@ NODES = {  # node -> its struct and file
     "vehicle": ("navigation::VehicleParams", "vehicle.yaml"),
 }
 TITLES = {"vehicle": "The vehicle, said once for all nodes: below the name 'vehicle', beside the nodes' own."}
+OWN_FILE = {"WorldNodeParams": []}  # has none: arguments of sim.launch, and the scenario
 PARAMETERS_HEAD = """# Parameters
 
 Every parameter of every node, as `rosparam` knows it below the node's name, and the vehicle's, below `vehicle`; written by `dev/write_parameter_files.py`

@@ -22,7 +22,7 @@ constexpr double kTurnedRad = 0.15;           // of the window since the start b
 constexpr double kFixedYawSigmaRad = 0.005;   // of the yaw bias then, and after a jump
 constexpr double kTurningSec = 3.0;           // that long at most it goes on turning
 constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
-constexpr double kRareSec = 0.25;             // between images
+constexpr double kRareSec = 0.25;             // between images: fewer in a second make no path
 constexpr double kSystematicRenewalSec = 20.0;  // at one place
 constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
 constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
@@ -188,17 +188,17 @@ struct WindowFilter::Impl {
     const auto motion = path.motion();
     const Eigen::Vector3d jitter =
         motion ? Eigen::Vector3d(T_odom_camera.translation() - motion->position_m) : Eigen::Vector3d::Zero();
+    const bool moves = moved(motion, window.stamp_sec, T_odom_camera.translation());
     return apply(estimate, window.stamp_sec,
-                 {*shared, *first, camera, T_odom_camera, jitter, moves(window.stamp_sec, T_odom_camera),
-                  camera_motion});
+                 {*shared, *first, camera, T_odom_camera, jitter, moves, camera_motion});
   }
 
   // Images that come too rarely for a path are so far apart that jitter is no motion.
-  bool moves(double stamp, const Eigen::Isometry3d& T_odom_camera) const {
-    if (const auto motion = path.motion()) return motion->velocity_mps.norm() >= kMinScaleMps;
+  bool moved(const std::optional<OdometrySmoother::Motion>& motion, double stamp,
+             const Eigen::Vector3d& position_m) const {
+    if (motion) return motion->velocity_mps.norm() >= kMinScaleMps;
     const double elapsed_sec = stamp - stamp_sec;
-    return elapsed_sec >= kRareSec &&
-           (T_odom_camera.translation() - camera_position).norm() >= kMinScaleMps * elapsed_sec;
+    return elapsed_sec >= kRareSec && (position_m - camera_position).norm() >= kMinScaleMps * elapsed_sec;
   }
 
   // Jitter is no way flown. But where the way is the measure of the scale, its jitter counts as drift: what
