@@ -57,8 +57,7 @@ double RingAlignment::beyondChance(double correlation) const {
 
 RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   RingMatch match;
-  match.seen = view_.look(quad, side_px);
-  if (match.seen < RingView::kMinSeen) return match;
+  if (view_.look(quad, side_px) < RingView::kMinSeen) return match;
   RingCorrelation correlation;
   for (int s = 0; s < view_.ring().segmentCount(); ++s) correlation.add(view_.segment(s));
   match.correlation = beyondChance(correlation.value());
@@ -153,13 +152,12 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   int best_step = 0;
   double best_fit = -1.0;
   for (int n = 0;; ++n) {
-    const double seen = view_.look(scale, at, n > 0);
-    if (seen < RingView::kMinSeen) break;
+    if (view_.look(scale, at, n > 0) < RingView::kMinSeen) break;
     readSegments();
     const auto step = change(at);
     if (const double fits = leaves_out_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
-      best_fit = fits, best.correlation = beyondChance(correlation_.value()), best.seen = seen, map = at,
-      best_step = n, information_ = normal_ / (spread_ * spread_);
+      best_fit = fits, best.correlation = beyondChance(correlation_.value()), map = at, best_step = n,
+      information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);

@@ -123,10 +123,9 @@ void thinOut(std::vector<Sample>& samples, int segments) {
   samples.swap(kept);
 }
 
-RingLevel levelFrom(const std::vector<Sample>& samples, const Shape& shape, int channels, int segments,
-                    double side_px) {
+RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segments, double side_px) {
   RingLevel level;
-  level.side_px = side_px, level.width = shape.width, level.height = shape.height;
+  level.side_px = side_px;
   for (const Sample& s : samples) {
     const Monomials monomials = monomialsOf(s.x, s.y);
     level.x.push_back(s.x), level.y.push_back(s.y);
@@ -162,7 +161,7 @@ RingLevel sampled(const RingReader& reader, const Shape& shape, int channels, do
   std::stable_sort(samples.begin(), samples.end(),
                    [](const Sample& a, const Sample& b) { return a.segment < b.segment; });
   thinOut(samples, 4 * a_side);
-  return levelFrom(samples, shape, channels, 4 * a_side, side_px);
+  return levelFrom(samples, channels, 4 * a_side, side_px);
 }
 
 }  // namespace

@@ -46,8 +46,7 @@ inline float logOf(float value) {
 /// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
 /// Points lie in the order of their segments.
 struct RingLevel {
-  double side_px = 0.0;              ///< samples along a mean side of the opening
-  double width = 1.0, height = 1.0;  ///< of the opening [mean sides]
+  double side_px = 0.0;     ///< samples along a mean side of the opening
   std::vector<float> x, y;  ///< in sides of the opening from its centre: within it, both are in -0.5 .. 0.5
   std::vector<float> monomials;           ///< of x and y, 16 a point
   std::vector<float> values;              ///< logarithms of the colours, channel by channel

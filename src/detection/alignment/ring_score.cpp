@@ -13,7 +13,6 @@ constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: ano
 
 RingMatch RingScore::of(RingView& view, double seen) {
   RingMatch match;
-  match.seen = seen;
   if (seen < RingView::kMinSeen) return match;
   shareOut(view);
   match.correlation = correlation_.value();

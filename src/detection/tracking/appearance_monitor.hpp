@@ -73,7 +73,7 @@ class AppearanceMonitor {
   /// Called with each image in which all sides are in view; looks every `TrackParams::appearance_every`.
   /// \param window as observed; takes the appearance \return false: it looks otherwise
   bool look(const TrackInput& input, WindowObservation& window) {
-    agreed_ = compared_ = false;
+    compared_ = false;
     if (!reference_ || --frames_to_comparison_ > 0) return true;
     frames_to_comparison_ = params_.track.appearance_every;
     if (!window.whole()) return true;
@@ -82,7 +82,6 @@ class AppearanceMonitor {
     window.bhattacharyya = match ? match->distance : 0.0;
     compared_ = window.has_appearance;
     unlike_ = match && !match->isLike();
-    agreed_ = match && !unlike_;
     return !unlike_;
   }
 
@@ -91,10 +90,10 @@ class AppearanceMonitor {
     reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
   }
 
-  bool isKnown() const { return reference_ != nullptr; }  ///< there is something to compare with
-  bool hasCompared() const { return compared_; }          ///< `look` has compared the last image
-  bool hasAgreed() const { return agreed_; }  ///< `look` has looked at the last image, and it was alike
-  bool isUnlike() const { return unlike_; }   ///< the last time that it was looked at
+  bool isKnown() const { return reference_ != nullptr; }    ///< there is something to compare with
+  bool hasCompared() const { return compared_; }            ///< `look` has compared the last image
+  bool hasAgreed() const { return compared_ && !unlike_; }  ///< and it was alike
+  bool isUnlike() const { return unlike_; }                 ///< the last time that it was looked at
 
  private:
   static constexpr double kAdaptation =
@@ -103,7 +102,7 @@ class AppearanceMonitor {
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
   int frames_to_comparison_ = 0;
-  bool unlike_ = false, agreed_ = false, compared_ = false;
+  bool unlike_ = false, compared_ = false;
 };
 
 }  // namespace window_ingress::detection

@@ -131,8 +131,8 @@ void EdgeTemplate::summarise() {
   const int size = 2 * half_ + 1;
   Eigen::Vector3f change;
   for (int c = 0; c < 3; ++c) change[c] = 2.0f * slopes_[(channels_ == 1 ? 0 : c) * size + half_];
-  contrast_ = change.norm();
-  if (contrast_ > 0.0f) colour_ = change / contrast_;
+  const float contrast = change.norm();
+  if (contrast > 0.0f) colour_ = change / contrast;
 }
 
 }  // namespace window_ingress::detection

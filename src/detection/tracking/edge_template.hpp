@@ -36,7 +36,6 @@ class EdgeTemplate {
 
   /// Direction of its change in colour space, rising outwards; unit vector.
   const Eigen::Vector3f& colour() const { return colour_; }
-  float contrast() const { return contrast_; }  ///< size of that change over two pixels [grey levels]
 
  private:
   using Pattern = std::array<float, 3 * (2 * kMaxHalf + 1)>;
@@ -48,7 +47,6 @@ class EdgeTemplate {
   double size_px_ = 1.0;
   Pattern slopes_{};  // channel by channel, 2 half + 1 each
   Eigen::Vector3f colour_ = Eigen::Vector3f::UnitX();
-  float contrast_ = 0.0f;
 };
 
 }  // namespace window_ingress::detection

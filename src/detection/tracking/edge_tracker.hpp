@@ -59,8 +59,6 @@ class EdgeTracker {
   void learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                  double size_px);
 
-  const EdgeTemplate& memory() const { return memory_; }
-
  private:
   Stretch edgeOf(const Stretch& side, double size_px);
   bool fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,

@@ -36,7 +36,6 @@ class QuadTracker {
   int inView() const { return in_view_; }
   int fitted() const { return fitted_; }
   double quality() const;  ///< mean agreement of the borders sought, 0 to 1
-  const FollowedBorder& border(int side) const { return borders_[side]; }
 
  private:
   bool keepsShape(const QuadMotion& motion) const;
