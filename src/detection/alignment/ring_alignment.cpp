@@ -77,7 +77,7 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
                                Matrix8f& explained) {
   const RingLevel& ring = view_.ring();
   DerivativeSum of_ring;  // derivatives times the ring's values
-  std::array<DerivativeSum, 3> of_one;
+  std::array<DerivativeSum, kRingChannels> of_one;
   const float outlier = robustFactor(spread_);
   const std::size_t count = ring.x.size();
   for (int i = segment.begin; i < segment.end; ++i) {
@@ -85,7 +85,7 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
     const float* monomials = ring.monomials.data() + static_cast<std::size_t>(16) * i;
     float aa = 0.0F, ab = 0.0F, bb = 0.0F, ar = 0.0F, br = 0.0F, ax = 0.0F, bx = 0.0F;
     std::size_t at = i;
-    for (int c = 0; c < view_.channels(); ++c, at += count) {
+    for (int c = 0; c < kRingChannels; ++c, at += count) {
       const RingMoments& m = segment.moments[c];
       const float x = ring.values[at] - m.meanX(), r = view_.value(at) - m.meanY() - segment.gain * x;
       residuals_[at] = r;
@@ -102,7 +102,7 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
   const auto take = [&explained](const Vector8f& v, float by) {
     explained.noalias() += v * (v.transpose() / by);
   };
-  for (int c = 0; c < view_.channels(); ++c)
+  for (int c = 0; c < kRingChannels; ++c)
     if (segment.moments[c].n > 0.0F) take(of_one[c].vector(), segment.moments[c].n);
   take(of_ring.vector(), segment.xx);
 }
@@ -125,7 +125,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
-  residuals_.assign(view_.ring().x.size() * view_.channels(), 0.0F);
+  residuals_.assign(view_.ring().x.size() * kRingChannels, 0.0F);
   const double least = leaves_out_ ? kMinAlike * correlation_.value() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)

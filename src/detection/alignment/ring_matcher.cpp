@@ -41,7 +41,7 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
 
 std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image, bool leaning) {
   std::vector<ScoredCandidate> rivals;
-  if (!known() || image.channels() != model_.channels()) return rivals;
+  if (!compares(image)) return rivals;
   for (const RingSearch::Place& place : search_.run(image, kPlacesSearched, leaning)) {
     ScoredCandidate rival;
     rival.quad = place.quad;
@@ -93,14 +93,14 @@ void RingMatcher::keep(const ScoredCandidate& rival) {
 
 std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                                   const geometry::Quadrilateral& quad, double coarsest_px) {
-  if (!known() || image.channels() != model_.channels()) return std::nullopt;
+  if (!compares(image)) return std::nullopt;
   alignment_.set(model_, image, camera, covered_);
   return alignment_.align(quad, kFinestPx, coarsest_px);
 }
 
 std::optional<AlignedRing> RingMatcher::uncovered(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                                   const geometry::Quadrilateral& quad) {
-  if (!known() || image.channels() != model_.channels()) return std::nullopt;
+  if (!compares(image)) return std::nullopt;
   alignment_.set(model_, image, camera, covered_);
   return alignment_.uncovered(quad, kFinestPx);
 }
@@ -109,7 +109,7 @@ const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,
                                                        const geometry::PinholeCamera* camera,
                                                        std::vector<ScoredCandidate>& rivals) {
   aligned_.clear();
-  if (!known() || image.channels() != model_.channels()) return aligned_;
+  if (!compares(image)) return aligned_;
   alignment_.set(model_, image, camera, covered_);
   compareAll(rivals);
   std::vector<std::size_t> places;

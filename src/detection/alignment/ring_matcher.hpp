@@ -32,7 +32,7 @@ class RingMatcher {
   void setCovered(bool covered) { covered_ = covered; }
 
   /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
-  /// correlation of every rival as it is. \param image with as many channels as the reference image
+  /// correlation of every rival as it is. \param image CV_8UC3
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
@@ -54,6 +54,7 @@ class RingMatcher {
   }
 
  private:
+  bool compares(const cv::Mat& image) const { return known() && image.channels() == kRingChannels; }
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
   void keep(const ScoredCandidate& rival);
   void compareAll(std::vector<ScoredCandidate>& rivals);

@@ -67,14 +67,14 @@ class RingReader {
     const Vector2d at = ImagePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image_.cols - 1 && at.y() < image_.rows - 1))
       return false;
-    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y()), channels = image_.channels();
+    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y());
     const auto u = static_cast<float>(at.x() - column), v = static_cast<float>(at.y() - row);
-    const float *top = image_.ptr<float>(row) + column * channels,
-                *bottom = image_.ptr<float>(row + 1) + column * channels;
-    for (int c = 0; c < channels; ++c)
-      value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + channels]) +
-                       v * ((1.0F - u) * bottom[c] + u * bottom[c + channels]));
-    if (channels == 3) model_.weighColour(value[0], value[1], value[2]);
+    const float *top = image_.ptr<float>(row) + column * kRingChannels,
+                *bottom = image_.ptr<float>(row + 1) + column * kRingChannels;
+    for (int c = 0; c < kRingChannels; ++c)
+      value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + kRingChannels]) +
+                       v * ((1.0F - u) * bottom[c] + u * bottom[c + kRingChannels]));
+    model_.weighColour(value[0], value[1], value[2]);
     return true;
   }
 
@@ -85,8 +85,7 @@ class RingReader {
   const RingModel& model_;
 };
 
-bool sampleAt(const RingReader& reader, const Vector2d& p, const Vector2d& half_step, int channels,
-              Sample& sample) {
+bool sampleAt(const RingReader& reader, const Vector2d& p, const Vector2d& half_step, Sample& sample) {
   std::array<float, 3> left, right, up, down;
   if (!reader.read(p, sample.value) || !reader.read(p - Vector2d(half_step.x(), 0), left) ||
       !reader.read(p + Vector2d(half_step.x(), 0), right) ||
@@ -94,7 +93,7 @@ bool sampleAt(const RingReader& reader, const Vector2d& p, const Vector2d& half_
     return false;
   sample.x = static_cast<float>(p.x()), sample.y = static_cast<float>(p.y());
   sample.steepness = 0.0F;
-  for (int c = 0; c < channels; ++c) {
+  for (int c = 0; c < kRingChannels; ++c) {
     sample.slope_x[c] = (right[c] - left[c]) / static_cast<float>(2.0 * half_step.x());
     sample.slope_y[c] = (down[c] - up[c]) / static_cast<float>(2.0 * half_step.y());
     sample.steepness += sample.slope_x[c] * sample.slope_x[c] + sample.slope_y[c] * sample.slope_y[c];
@@ -123,7 +122,7 @@ void thinOut(std::vector<Sample>& samples, int segments) {
   samples.swap(kept);
 }
 
-RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segments, double side_px) {
+RingLevel levelFrom(const std::vector<Sample>& samples, int segments, double side_px) {
   RingLevel level;
   level.side_px = side_px;
   for (const Sample& s : samples) {
@@ -131,7 +130,7 @@ RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segmen
     level.x.push_back(s.x), level.y.push_back(s.y);
     level.monomials.insert(level.monomials.end(), monomials.data(), monomials.data() + monomials.size());
   }
-  for (int c = 0; c < channels; ++c)
+  for (int c = 0; c < kRingChannels; ++c)
     for (const Sample& s : samples) {
       level.values.push_back(s.value[c]);
       level.slopes_x.push_back(s.slope_x[c]);
@@ -146,7 +145,7 @@ RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segmen
 }
 
 // The ring on a grid of this resolution.
-RingLevel sampled(const RingReader& reader, const Shape& shape, int channels, double side_px) {
+RingLevel sampled(const RingReader& reader, const Shape& shape, double side_px) {
   const double pitch = 1.0 / side_px, half = RingModel::kWidth + 0.5 * std::max(shape.width, shape.height);
   const int a_side = segmentsASide(side_px);
   const Vector2d step(pitch / shape.width, pitch / shape.height);
@@ -156,12 +155,12 @@ RingLevel sampled(const RingReader& reader, const Shape& shape, int channels, do
       const Vector2d p(x / shape.width, y / shape.height);
       Sample sample{};
       sample.segment = segmentOf(p, shape, side_px, a_side);
-      if (sample.segment >= 0 && sampleAt(reader, p, 0.5 * step, channels, sample)) samples.push_back(sample);
+      if (sample.segment >= 0 && sampleAt(reader, p, 0.5 * step, sample)) samples.push_back(sample);
     }
   std::stable_sort(samples.begin(), samples.end(),
                    [](const Sample& a, const Sample& b) { return a.segment < b.segment; });
   thinOut(samples, 4 * a_side);
-  return levelFrom(samples, channels, 4 * a_side, side_px);
+  return levelFrom(samples, 4 * a_side, side_px);
 }
 
 }  // namespace
@@ -193,9 +192,8 @@ std::array<float, 257> logsOfColours() {
 
 void RingModel::learn(const cv::Mat& image, const Quadrilateral& opening, double colour) {
   forget();
-  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) return;
+  if (image.empty() || image.type() != CV_8UC3) return;
   if (!geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
-  channels_ = image.channels();
   colour_ = static_cast<float>(colour);
   const double aspect = geometry::aspectRatio(opening);
   const Shape shape{2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
@@ -215,7 +213,7 @@ void RingModel::learn(const cv::Mat& image, const Quadrilateral& opening, double
     const double blur = kBlur * std::sqrt(std::max(0.0, ratio * ratio - (from > 0 ? 0.5 : 0.0)));
     if (ratio > 1.1 && blur > 0.1)
       cv::GaussianBlur(smooth, smooth, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
-    levels_.push_back(sampled(RingReader(smooth, map, from, *this), shape, channels_, wanted));
+    levels_.push_back(sampled(RingReader(smooth, map, from, *this), shape, wanted));
   }
   levels_.erase(
       std::remove_if(levels_.begin(), levels_.end(), [](const RingLevel& l) { return l.size() < 40; }),

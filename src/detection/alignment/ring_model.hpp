@@ -43,6 +43,8 @@ inline float logOf(float value) {
          (value - static_cast<float>(whole)) * (kLogsOfColours[whole + 1] - kLogsOfColours[whole]);
 }
 
+inline constexpr int kRingChannels = 3;  ///< of all images; those of a grey one are equal
+
 /// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
 /// Points lie in the order of their segments.
 struct RingLevel {
@@ -64,12 +66,11 @@ class RingModel {
  public:
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
 
-  /// \param image CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
-  /// the differences between channels, beside brightness
+  /// \param image CV_8UC3 \param opening canonical order, in its pixels \param colour weight of the
+  /// differences between channels, beside brightness
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0);
   void forget() { levels_.clear(), aspect_.reset(); }
   bool known() const { return !levels_.empty(); }
-  int channels() const { return channels_; }
 
   /// Of the opening, where it is known.
   void setAspect(const std::optional<OpeningAspect>& aspect) { aspect_ = aspect; }
@@ -91,7 +92,6 @@ class RingModel {
 
  private:
   std::vector<RingLevel> levels_;
-  int channels_ = 0;
   float colour_ = 1.0F;
   std::optional<OpeningAspect> aspect_;
   bool framed_ = false;

@@ -22,13 +22,6 @@ constexpr int kPeakPx = 5;
 constexpr int kFurthestPx = 2;     ///< that half a side may lie off its place, across
 constexpr double kOffCost = 0.02;  ///< taken from its likeness for each pixel that it lies off
 
-void greyOf(const cv::Mat& image, cv::Mat& grey) {
-  if (image.channels() == 3)
-    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  else
-    grey = image;
-}
-
 // The part about the opening that the reference shows.
 cv::Rect shownAbout(const cv::Rect& opening, const cv::Mat& is_shown) {
   const auto shows = [&](const cv::Rect& part) { return cv::countNonZero(is_shown(part) < 255) == 0; };
@@ -69,7 +62,7 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
   const cv::Mat map = cv::getPerspectiveTransform(from.data(), to.data());
   const cv::Size fine = pattern_ * kFine;
   cv::Mat shown, grey, is_shown;
-  greyOf(image, grey);
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   cv::warpPerspective(grey, shown, map, fine, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::warpPerspective(cv::Mat(image.size(), CV_8U, cv::Scalar(255)), is_shown, map, fine, cv::INTER_NEAREST);
   cv::resize(shown, shown, pattern_, 0, 0, cv::INTER_AREA);
@@ -211,7 +204,7 @@ void RingSearch::settle(Place& place) {
 const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most, bool leaning) {
   places_.clear();
   if (!known()) return places_;
-  greyOf(image, grey_);
+  cv::cvtColor(image, grey_, cv::COLOR_BGR2GRAY);
   pyramid_.set(grey_);
   const double largest = kLargestPart * std::min(image.cols, image.rows);
   for (double side_px = kSmallestPx; side_px < largest; side_px *= kStep)

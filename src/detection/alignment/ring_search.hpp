@@ -21,13 +21,13 @@ class RingSearch {
     cv::Point at;                  ///< of the pattern in that
   };
 
-  /// \param image CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels
+  /// \param image CV_8UC3 \param opening canonical order, in its pixels
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { sides_.clear(); }
   bool known() const { return !sides_.empty(); }
 
   /// Best first, each place once, at most `most`. Valid until the next call.
-  /// \param image CV_8UC1 or CV_8UC3 \param leaning false: upright, as the reference shows it
+  /// \param image CV_8UC3 \param leaning false: upright, as the reference shows it
   const std::vector<Place>& run(const cv::Mat& image, std::size_t most, bool leaning = true);
 
  private:

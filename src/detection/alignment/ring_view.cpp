@@ -86,7 +86,6 @@ void RingView::place(const Matrix3d& map, int level) {
   }
 }
 
-template <int kChannels>
 int RingView::readPixels(const cv::Mat& image, bool keeps_weights) {
   const auto count = at_x_.size();
   const auto row_step = image.step[0];
@@ -98,19 +97,20 @@ int RingView::readPixels(const cv::Mat& image, bool keeps_weights) {
     weights_[i] = !inside ? 0.0F : keeps_weights && weights_[i] > 0.0F ? weights_[i] : 1.0F;
     seen += inside;
     if (!inside) {
-      for (int c = 0; c < kChannels; ++c) values_[c * count + i] = 0.0F;
+      for (int c = 0; c < kRingChannels; ++c) values_[c * count + i] = 0.0F;
       continue;
     }
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-    const uchar *top = image.data + row * row_step + column * kChannels, *below = top + row_step;
-    for (int c = 0; c < kChannels; ++c) {
-      const float upper = static_cast<float>(top[c]) + u * static_cast<float>(top[c + kChannels] - top[c]);
+    const uchar *top = image.data + row * row_step + column * kRingChannels, *below = top + row_step;
+    for (int c = 0; c < kRingChannels; ++c) {
+      const float upper =
+          static_cast<float>(top[c]) + u * static_cast<float>(top[c + kRingChannels] - top[c]);
       const float lower =
-          static_cast<float>(below[c]) + u * static_cast<float>(below[c + kChannels] - below[c]);
+          static_cast<float>(below[c]) + u * static_cast<float>(below[c + kRingChannels] - below[c]);
       values_[c * count + i] = logOf(upper + v * (lower - upper));
     }
-    if (kChannels == 3) model_->weighColour(values_[i], values_[count + i], values_[2 * count + i]);
+    model_->weighColour(values_[i], values_[count + i], values_[2 * count + i]);
   }
   return seen;
 }
@@ -119,12 +119,9 @@ double RingView::look(const Scale& scale, const Matrix3d& map, bool nearby) {
   ring_ = scale.ring;
   place(map, scale.level);
   const std::size_t count = at_x_.size();
-  channels_ = scale.image->channels();
-  values_.resize(channels_ * count);
+  values_.resize(kRingChannels * count);
   weights_.resize(count);
-  const bool keeps_weights = covered_ && nearby;
-  const int seen = channels_ == 1 ? readPixels<1>(*scale.image, keeps_weights)
-                                  : readPixels<3>(*scale.image, keeps_weights);
+  const int seen = readPixels(*scale.image, covered_ && nearby);
   if (covered_) coverOutliers(nearby ? 1 : kCoverPasses);
   return static_cast<double>(seen) / static_cast<double>(std::max<std::size_t>(1, count));
 }
@@ -148,7 +145,7 @@ RingSegment RingView::segment(int s) const {
   RingSegment segment;
   segment.begin = ring_->segments[s], segment.end = ring_->segments[s + 1];
   float yy = 0.0F, xy = 0.0F, samples = 0.0F;
-  for (int c = 0; c < channels_; ++c) {
+  for (int c = 0; c < kRingChannels; ++c) {
     const std::size_t at = static_cast<std::size_t>(c) * ring_->size();
     const RingMoments m = segment.moments[c] = momentsOf(ring_->values.data() + at, values_.data() + at,
                                                          weights_.data(), segment.begin, segment.end);
@@ -163,7 +160,7 @@ RingSegment RingView::segment(int s) const {
   if (!covered_) return segment;
   const auto seen = std::count_if(weights_.begin() + segment.begin, weights_.begin() + segment.end,
                                   [](float weight) { return weight > 0.0F; });
-  const float usual = kUsualWeight * static_cast<float>(seen * channels_);
+  const float usual = kUsualWeight * static_cast<float>(seen * kRingChannels);
   segment.covered_weight = segment.weight * std::max(0.0F, usual / samples - 1.0F);
   return segment;
 }
@@ -175,10 +172,10 @@ void RingView::coverOutliers(int passes) {
 // A step of iteratively reweighted least squares: gains and offsets of the segments follow from the weights.
 void RingView::weighByResiduals() {
   const std::size_t count = ring_->x.size();
-  residuals_.assign(count * channels_, 0.0F);
+  residuals_.assign(count * kRingChannels, 0.0F);
   for (int s = 0; s < ring_->segmentCount(); ++s) {
     const RingSegment fitted = segment(s);
-    for (int c = 0; c < channels_; ++c) {
+    for (int c = 0; c < kRingChannels; ++c) {
       const RingMoments& m = fitted.moments[c];
       for (std::size_t i = fitted.begin, at = c * count + i; static_cast<int>(i) < fitted.end; ++i, ++at)
         residuals_[at] = values_[at] - m.meanY() - fitted.gain * (ring_->values[at] - m.meanX());
@@ -188,7 +185,7 @@ void RingView::weighByResiduals() {
   for (std::size_t i = 0; i < count; ++i) {
     if (weights_[i] == 0.0F) continue;
     float squares = 0.0F;
-    for (int c = 0; c < channels_; ++c) squares += residuals_[c * count + i] * residuals_[c * count + i];
+    for (int c = 0; c < kRingChannels; ++c) squares += residuals_[c * count + i] * residuals_[c * count + i];
     weights_[i] = 1.0F / (1.0F + outlier * squares);
   }
 }

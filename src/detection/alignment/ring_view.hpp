@@ -26,7 +26,7 @@ struct RingMoments {
 /// What the image shows of a stretch of the ring in which the light is even.
 struct RingSegment {
   int begin = 0, end = 0;
-  std::array<RingMoments, 3> moments;  ///< of the channels
+  std::array<RingMoments, kRingChannels> moments;
   float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times its samples, noise added; of all channels
   float noise = 0.0F;            ///< part of `xx`
   double alike = 0.0;            ///< correlation times `weight`
@@ -81,7 +81,6 @@ class RingView {
 
   const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
-  int channels() const { return channels_; }
   float value(std::size_t at) const { return values_[at]; }  ///< as those of the ring
 
   float meanLog() const;  ///< of the colours that are seen
@@ -102,7 +101,6 @@ class RingView {
 
  private:
   void place(const Eigen::Matrix3d& map, int level);
-  template <int kChannels>
   int readPixels(const cv::Mat& image, bool keeps_weights);
   void weighByResiduals();
 
@@ -110,7 +108,6 @@ class RingView {
   const geometry::PinholeCamera* lens_ = nullptr;
   ImagePyramid pyramid_;
   const RingLevel* ring_ = nullptr;
-  int channels_ = 0;
   bool covered_ = false;
   std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level
   std::vector<float> values_, weights_, residuals_, scratch_;
