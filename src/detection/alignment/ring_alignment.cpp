@@ -67,7 +67,8 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
 RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
   if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
-  RingMatch match = judgement_.of(view_, seen);
+  RingMatch match;
+  if (seen >= RingView::kMinSeen) match = matchOf(view_);
   match.correlation = beyondChance(match.correlation);
   return match;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "detection/quads.hpp"
+#include "window_ingress/geometry/median.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -195,9 +196,7 @@ float RingView::spreadOf(const std::vector<float>& residuals, float before) {
   for (std::size_t i = 0; i < residuals.size(); i += 3)
     if (weights_[i % weights_.size()] > 0.0F) scratch_.push_back(std::abs(residuals[i]));
   if (scratch_.empty()) return before;
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  return std::max(kNoise, 1.48F * *middle);
+  return std::max(kNoise, 1.48F * geometry::median(scratch_));
 }
 
 }  // namespace window_ingress::detection
