@@ -35,22 +35,20 @@ std::string imageFault(const cv::Mat& image) {
 }  // namespace
 
 struct WindowDetector::Impl {
+  using View = TargetChoice::View;
+
   explicit Impl(const DetectorParams& params)
       : search(params), reference(params), choice(params, reference, trace) {}
 
-  std::optional<WindowObservation> judge(const cv::Mat& image, double stamp_sec,
-                                         const geometry::PinholeCamera* camera);
-  std::optional<WindowObservation> judgeFrames(const cv::Mat& image, double stamp_sec,
-                                               const geometry::PinholeCamera* camera);
-  std::optional<WindowObservation> judgeFrameAlone(const cv::Mat& image, double stamp_sec,
-                                                   const geometry::PinholeCamera* camera);
-  std::optional<WindowObservation> judgeCovered(const cv::Mat& image, double stamp_sec,
-                                                const geometry::PinholeCamera* camera);
-  std::optional<WindowObservation> choose(const TargetChoice::View& view);
+  std::optional<WindowObservation> judge(const View& view);
+  std::optional<WindowObservation> judgeFrames(const View& view);
+  std::optional<WindowObservation> judgeFrameAlone(const View& view);
+  std::optional<WindowObservation> judgeCovered(const View& view);
+  std::optional<WindowObservation> judgeSurroundings(const View& view);
+  std::optional<WindowObservation> choose(const View& view);
   void searchOnColours();
   void gatherAll();
-  std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
-                                                     const geometry::PinholeCamera* camera);
+
   CandidateSearch search;
   ReferenceJudge reference;
   DetectionTrace trace;
@@ -60,19 +58,19 @@ struct WindowDetector::Impl {
   StageTimer* watch = nullptr;
 };
 
-std::optional<WindowObservation> WindowDetector::Impl::choose(const TargetChoice::View& view) {
+// Of the rivals that the reference has judged.
+std::optional<WindowObservation> WindowDetector::Impl::choose(const View& view) {
+  done(watch, Stage::kReference);
   auto window = choice.choose(rivals, search.factor(), view);
   done(watch, Stage::kBorders);
   return window;
 }
 
-std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat& image, double stamp_sec,
-                                                                   const geometry::PinholeCamera* camera) {
+std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const View& view) {
   rivals = search.kept();
-  const bool compared = reference.judgeFrames(image, camera, rivals);
-  if (!compared || !reference.knowsBorders()) judgeNestedQuads(image, search.factor(), rivals);
-  done(watch, Stage::kReference);
-  return choose({image, stamp_sec, camera});
+  const bool compared = reference.judgeFrames(view.image, view.camera, rivals);
+  if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), rivals);
+  return choose(view);
 }
 
 // What is a window by its geometry, and what may be one.
@@ -83,50 +81,44 @@ void WindowDetector::Impl::gatherAll() {
 }
 
 // What lies behind a gate is not what the reference shows there.
-std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(
-    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
+std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(const View& view) {
   rivals = found_first;
   rivals.insert(rivals.end(), search.kept().begin(), search.kept().end());
-  if (!reference.judgeFrames(image, camera, rivals)) return std::nullopt;
+  if (!reference.judgeFrames(view.image, view.camera, rivals)) return std::nullopt;
   for (ScoredCandidate& rival : rivals)
     if (!rival.located || !rival.appearance) rival.verdict.reject = RejectReason::kDuplicate;
-  done(watch, Stage::kReference);
-  return choose({image, stamp_sec, camera});
+  return choose(view);
 }
 
-std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
-    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
-  if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
-  done(watch, Stage::kReference);
-  return choose({image, stamp_sec, camera});
+std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(const View& view) {
+  if (!reference.judgeSurroundings(view.image, view.camera, rivals)) return std::nullopt;
+  return choose(view);
 }
 
 // By the frame first, where there is one: its borders are located best. What lies round it must agree; where
 // it does not surely, it is asked itself, and its answer stands if it is another window.
-std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
-                                                             const geometry::PinholeCamera* camera) {
+std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
   std::optional<WindowObservation> window;
-  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
-  if (!reference.knowsSurroundings(image)) return window;
+  if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
+  if (!reference.knowsSurroundings(view.image)) return window;
   const double agreement = window ? choice.ringThere() : 0.0;
   if (agreement == 0.0) window.reset();
   const auto ask_surroundings = [&] {
-    const auto other = judgeSurroundings(image, stamp_sec, camera);
+    const auto other = judgeSurroundings(view);
     if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
   };
   if (agreement < kSureRing) gatherAll(), ask_surroundings();
   if (!window && !everywhere)
-    rivals = everywhere.emplace(reference.placesEverywhere(image)), ask_surroundings();
+    rivals = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
   return window;
 }
 
 // Nothing was found: something may stand before the window.
-std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const cv::Mat& image, double stamp_sec,
-                                                                    const geometry::PinholeCamera* camera) {
+std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& view) {
   gatherAll();
   if (everywhere) rivals.insert(rivals.end(), everywhere->begin(), everywhere->end());
   reference.setCovered(true);
-  const auto window = judgeSurroundings(image, stamp_sec, camera);
+  const auto window = judgeSurroundings(view);
   reference.setCovered(false);
   return window;
 }
@@ -183,14 +175,15 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     return std::nullopt;
   }
   impl_->search.run(image, camera, impl_->trace);
-  auto window = impl_->judge(image, stamp_sec, camera);
+  const Impl::View view{image, stamp_sec, camera};
+  auto window = impl_->judge(view);
   if (!window) {
     impl_->found_first = impl_->search.kept();
     impl_->searchOnColours();
-    window = impl_->judge(image, stamp_sec, camera);
+    window = impl_->judge(view);
   }
-  if (!window && !impl_->reference.frameless()) window = impl_->judgeFrameAlone(image, stamp_sec, camera);
-  if (!window) window = impl_->judgeCovered(image, stamp_sec, camera);
+  if (!window && !impl_->reference.frameless()) window = impl_->judgeFrameAlone(view);
+  if (!window) window = impl_->judgeCovered(view);
   explain(impl_->trace);
   return window;
 }
