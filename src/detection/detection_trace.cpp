@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <tuple>
 
 namespace window_ingress::detection {
@@ -13,74 +14,43 @@ struct Wording {
   const char* relation;  ///< of the value to the limit when the gate rejects; empty: it has no measure
 };
 
-Wording wording(RejectReason reason) {
-  switch (reason) {
-    case RejectReason::kNone:
-      return {"none", "score", ">="};
-    case RejectReason::kBadImage:
-      return {"bad_image", "side", "<"};
-    case RejectReason::kNoCandidate:
-      return {"no_candidate", "candidates", "<"};
-    case RejectReason::kCorners:
-      return {"corners", "corners", "!="};
-    case RejectReason::kAreaSmall:
-      return {"area_small", "area", "<"};
-    case RejectReason::kAreaLarge:
-      return {"area_large", "area", ">"};
-    case RejectReason::kAspect:
-      return {"aspect", "aspect", "outside"};
-    case RejectReason::kSolidity:
-      return {"solidity", "solidity", "<"};
-    case RejectReason::kAngle:
-      return {"angle", "angle off 90 deg [rad]", ">"};
-    case RejectReason::kBorder:
-      return {"border", "distance from border [px]", "<"};
-    case RejectReason::kLineSupport:
-      return {"line_support", "line support", "<"};
-    case RejectReason::kContrast:
-      return {"contrast", "contrast", "<"};
-    case RejectReason::kRefinement:
-      return {"refinement", "profiles on the line", "<"};
-    case RejectReason::kOuterBorder:
-      return {"outer_border", "outer border of a frame whose inner one is seen", ""};
-    case RejectReason::kDuplicate:
-      return {"duplicate", "same loop, rank", "<"};
-    case RejectReason::kPane:
-      return {"pane", "within a larger loop that counts", ""};
-    case RejectReason::kAppearance:
-      return {"appearance", "Bhattacharyya distance", ">"};
-    case RejectReason::kOtherAspect:
-      return {"other_aspect", "misfit of the reference's aspect [sigma]", ">"};
-    case RejectReason::kOtherFrame:
-      return {"other_frame", "width of the frame over the reference's", "outside"};
-    case RejectReason::kUnlike:
-      return {"unlike", "correlation with the reference's surroundings", "<"};
-    case RejectReason::kScore:
-      return {"score", "score", "<"};
-    case RejectReason::kOutscored:
-      return {"outscored", "outscored,", "<"};
-    case RejectReason::kBudget:
-      return {"budget", "rank", ">"};
-  }
-  return {"unknown", "value", "?"};
-}
+/// In the order of `RejectReason`.
+constexpr Wording kWordings[] = {
+    {"none", "score", ">="},
+    {"bad_image", "side", "<"},
+    {"no_candidate", "candidates", "<"},
+    {"corners", "corners", "!="},
+    {"area_small", "area", "<"},
+    {"area_large", "area", ">"},
+    {"aspect", "aspect", "outside"},
+    {"solidity", "solidity", "<"},
+    {"angle", "angle off 90 deg [rad]", ">"},
+    {"border", "distance from border [px]", "<"},
+    {"line_support", "line support", "<"},
+    {"contrast", "contrast", "<"},
+    {"refinement", "profiles on the line", "<"},
+    {"outer_border", "outer border of a frame whose inner one is seen", ""},
+    {"duplicate", "same loop, rank", "<"},
+    {"pane", "within a larger loop that counts", ""},
+    {"appearance", "Bhattacharyya distance", ">"},
+    {"other_aspect", "misfit of the reference's aspect [sigma]", ">"},
+    {"other_frame", "width of the frame over the reference's", "outside"},
+    {"unlike", "correlation with the reference's surroundings", "<"},
+    {"score", "score", "<"},
+    {"outscored", "outscored,", "<"},
+    {"budget", "rank", ">"},
+};
+static_assert(std::size(kWordings) == kRejectReasons);
+
+const Wording& wording(RejectReason reason) { return kWordings[static_cast<int>(reason)]; }
 
 }  // namespace
 
 const char* toString(RejectReason reason) { return wording(reason).name; }
 
 const char* toString(CandidateSource source) {
-  switch (source) {
-    case CandidateSource::kContour:
-      return "contour";
-    case CandidateSource::kBlob:
-      return "blob";
-    case CandidateSource::kSegments:
-      return "segments";
-    case CandidateSource::kReference:
-      return "reference";
-  }
-  return "unknown";
+  static constexpr const char* kNames[] = {"contour", "blob", "segments", "reference"};
+  return kNames[static_cast<int>(source)];
 }
 
 void DetectionTrace::clear() {
@@ -92,7 +62,7 @@ void DetectionTrace::clear() {
 }
 
 std::string describe(const CandidateTrace& candidate) {
-  const Wording words = wording(candidate.reject);
+  const Wording& words = wording(candidate.reject);
   const char* relation = words.relation;
   if (std::strcmp(relation, "outside") == 0) relation = candidate.value > candidate.limit ? ">" : "<";
   char text[96];
@@ -131,12 +101,8 @@ void explain(DetectionTrace& trace) {
 }
 
 void traceFollowed(const WindowObservation& window, DetectionTrace& trace) {
+  trace.clear();
   trace.outcome = RejectReason::kNone;
-  trace.detail.clear();
-  trace.candidates.clear();
-  trace.target = -1;
-  trace.contours = trace.segments = 0;
-  trace.budget_exceeded = false;
   if (!window.whole()) return;
   CandidateTrace candidate;
   candidate.quad = window.corners;
