@@ -19,24 +19,13 @@ bool isWindow(const CandidateTrace& candidate) {
          looksOtherwise(candidate.reject);
 }
 
-SeenWindow seenFrom(const CandidateTrace& candidate) {
-  SeenWindow seen;
-  seen.corners = candidate.quad;
-  seen.score = candidate.score;
-  seen.has_appearance = candidate.has_appearance;
-  seen.bhattacharyya = candidate.bhattacharyya;
-  seen.may_be_target = !looksOtherwise(candidate.reject);
-  return seen;
+SeenWindow seenFrom(const CandidateTrace& other) {
+  return {other.quad,          other.score, other.has_appearance,
+          other.bhattacharyya, false,       !looksOtherwise(other.reject)};
 }
 
 SeenWindow seenFrom(const WindowObservation& target) {
-  SeenWindow seen;
-  seen.corners = target.corners;
-  seen.score = target.score;
-  seen.has_appearance = target.has_appearance;
-  seen.bhattacharyya = target.bhattacharyya;
-  seen.is_target = seen.may_be_target = true;
-  return seen;
+  return {target.corners, target.score, target.has_appearance, target.bhattacharyya, true, true};
 }
 
 bool overlaps(const SeenWindow& a, const SeenWindow& b) {
