@@ -74,13 +74,11 @@ void drawCandidates(cv::Mat& canvas, const DetectionTrace& trace) {
 std::vector<TextOverlay::Line> legendOf(const DetectionTrace& trace) {
   std::array<int, kRejectReasons> counts{};
   for (const CandidateTrace& candidate : trace.candidates) ++counts[static_cast<int>(candidate.reject)];
-  std::vector<int> order;
-  for (int i = 1; i < kRejectReasons; ++i)
-    if (counts[i] > 0) order.push_back(i);
   std::vector<TextOverlay::Line> lines;
-  for (int i : order) {
+  for (int i = 1; i < kRejectReasons; ++i) {
     const auto reason = static_cast<RejectReason>(i);
-    lines.push_back({std::to_string(counts[i]) + "  " + toString(reason), colourOf(reason), true});
+    if (counts[i] == 0) continue;
+    lines.push_back({std::to_string(counts[i]) + "  " + toString(reason), colourOf(reason)});
   }
   return lines;
 }
@@ -92,7 +90,7 @@ cv::Point pixel(const Eigen::Vector2d& p) {
 
 cv::Rect boxRound(const geometry::Quadrilateral& quad) {
   const std::array<cv::Point, 4> corners = {pixel(quad[0]), pixel(quad[1]), pixel(quad[2]), pixel(quad[3])};
-  return cv::boundingRect(cv::Mat(4, 1, CV_32SC2, const_cast<cv::Point*>(corners.data())));
+  return cv::boundingRect(corners);
 }
 
 // What a gate stopped before what was only outscored; the most promising first; of those without a score the

@@ -8,8 +8,9 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kShade = 0.35;  ///< of what is behind a text remains
-constexpr double kRoom = 1.7;    ///< height of a line, in that of its letters
+constexpr double kShade = 0.35;   ///< of what is behind a text remains
+constexpr double kRoom = 1.7;     ///< height of a line, in that of its letters
+constexpr double kBoxPart = 0.6;  ///< of the canvas' height, at most
 const cv::Scalar kWhite(255, 255, 255);
 
 }  // namespace
@@ -52,22 +53,20 @@ cv::Point TextOverlay::freeCorner(const cv::Size& size) const {
   return {0, 0};
 }
 
-void TextOverlay::box(const std::vector<Line>& lines, double part) {
-  const int fitting = std::max(1, static_cast<int>(part * canvas_.rows) / height_);
+void TextOverlay::box(const std::vector<Line>& lines) {
+  const int fitting = std::max(1, static_cast<int>(kBoxPart * canvas_.rows) / height_);
   const int count = std::min(fitting, static_cast<int>(lines.size())), margin = height_ / 2;
   if (count == 0) return;
   int width = 0;
-  for (int i = 0; i < count; ++i)
-    width = std::max(width, sizeOf(lines[i].text).width + (lines[i].swatch ? height_ : 0));
+  for (int i = 0; i < count; ++i) width = std::max(width, sizeOf(lines[i].text).width + height_);
   const cv::Rect area({0, 0}, cv::Size(width + 2 * margin, count * height_ + margin));
   const cv::Point corner = freeCorner(area.size());
   backdrop(area + corner);
   for (int i = 0; i < count; ++i) {
     const cv::Point baseline = corner + cv::Point(margin, (i + 1) * height_);
-    const int indent = lines[i].swatch ? height_ : 0, side = height_ / 2;
-    if (indent)
-      cv::rectangle(canvas_, {baseline.x, baseline.y - side, side, side}, lines[i].colour, cv::FILLED);
-    write(lines[i].text, baseline + cv::Point(indent, 0), indent ? kWhite : lines[i].colour);
+    const int side = height_ / 2;
+    cv::rectangle(canvas_, {baseline.x, baseline.y - side, side, side}, lines[i].colour, cv::FILLED);
+    write(lines[i].text, baseline + cv::Point(height_, 0), kWhite);
   }
 }
 

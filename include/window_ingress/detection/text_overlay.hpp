@@ -17,12 +17,12 @@ class TextOverlay {
   struct Line {
     std::string text;
     cv::Scalar colour;
-    bool swatch = false;  ///< a patch of the colour before the text, which is then white
   };
 
-  /// A dark box with these lines in a corner of the canvas that is free, else in the upper left one; as many
-  /// as fit into `part` of its height. The footer, if there is to be one, comes first.
-  void box(const std::vector<Line>& lines, double part = 0.6);
+  /// A dark box with these lines, white, each behind a patch of its colour, in a corner of the canvas that is
+  /// free, else in the upper left one; as many as fit into three fifths of its height. The footer, if there
+  /// is to be one, comes first.
+  void box(const std::vector<Line>& lines);
 
   /// One line along the lower border; its end is cut off if it is too long.
   void footer(const Line& line);

@@ -43,7 +43,7 @@ TEST(TextOverlay, TheBoxLeavesFreeWhatIsToBeFree) {
   TextOverlay lettering(canvas);
   lettering.keepFree(upper_left);
   lettering.keepFree(upper_right);
-  lettering.box({{"11  corners", kWhite, true}, {"3  aspect", kWhite, true}});
+  lettering.box({{"11  corners", kWhite}, {"3  aspect", kWhite}});
   EXPECT_TRUE(isBlank(canvas(upper_left)));
   EXPECT_TRUE(isBlank(canvas(upper_right)));
   EXPECT_FALSE(isBlank(canvas));
@@ -51,14 +51,14 @@ TEST(TextOverlay, TheBoxLeavesFreeWhatIsToBeFree) {
   TextOverlay everywhere(crowded);
   for (int x : {0, 400})
     for (int y : {0, 250}) everywhere.keepFree({x, y, 240, 230});
-  everywhere.box({{"11  corners", kWhite, true}});
+  everywhere.box({{"11  corners", kWhite}});
   EXPECT_FALSE(isBlank(crowded(cv::Rect(0, 0, 100, 50)))) << "in its usual corner";
 }
 
 TEST(TextOverlay, TextGrowsWithTheImage) {
   const auto boxHeight = [](int rows, int cols) {
     cv::Mat canvas(rows, cols, CV_8UC3, cv::Scalar::all(100)), blank;
-    TextOverlay(canvas).box({{"corners", kWhite, true}});
+    TextOverlay(canvas).box({{"corners", kWhite}});
     cv::inRange(canvas, cv::Scalar::all(100), cv::Scalar::all(100), blank);
     return cv::boundingRect(255 - blank).height;
   };
