@@ -41,6 +41,13 @@ bool inOneSpot(const WindowPlace& a, const WindowPlace& b) {
   return (a.position_m - b.position_m).norm() <= kSameSpot * width_m;
 }
 
+template <typename Windows>
+auto withNumber(Windows& windows, std::uint32_t KnownWindow::*number, std::uint32_t value) {
+  const auto it = std::find_if(windows.begin(), windows.end(),
+                               [&](const auto& window) { return window.*number == value; });
+  return it == windows.end() ? nullptr : &*it;
+}
+
 // What is known of two that are one.
 void absorb(KnownWindow& window, const KnownWindow& twin) {
   if (window.id == 0) window.id = twin.id;
@@ -83,7 +90,7 @@ void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) co
 }
 
 void FacadeMap::learn(double stamp_sec, Sight& sight) {
-  KnownWindow* window = withKey(sight.key);
+  KnownWindow* window = withNumber(windows_, &KnownWindow::key, sight.key);
   if (window == nullptr) {
     if (windows_.size() >= kMaxWindows) return;
     windows_.emplace_back();
@@ -175,26 +182,17 @@ const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) con
 }
 
 const KnownWindow* FacadeMap::find(std::uint32_t id) const {
-  if (id == 0) return nullptr;
-  const auto it = std::find_if(windows_.begin(), windows_.end(),
-                               [id](const KnownWindow& window) { return window.id == id; });
-  return it == windows_.end() ? nullptr : &*it;
+  return id == 0 ? nullptr : withNumber(windows_, &KnownWindow::id, id);
 }
 
-KnownWindow* FacadeMap::withKey(std::uint32_t key) {
-  const auto it = std::find_if(windows_.begin(), windows_.end(),
-                               [key](const KnownWindow& window) { return window.key == key; });
-  return it == windows_.end() ? nullptr : &*it;
+KnownWindow* FacadeMap::find(std::uint32_t id) {
+  return id == 0 ? nullptr : withNumber(windows_, &KnownWindow::id, id);
 }
 
 std::optional<std::uint32_t> FacadeMap::followed() const {
   for (const KnownWindow& window : windows_)
     if (window.key == followed_key_ && isConfirmed(window)) return window.id;
   return std::nullopt;
-}
-
-KnownWindow* FacadeMap::find(std::uint32_t id) {
-  return const_cast<KnownWindow*>(static_cast<const FacadeMap&>(*this).find(id));
 }
 
 }  // namespace window_ingress::facade

@@ -74,7 +74,6 @@ class FacadeMap {
     WindowPlace place;
     std::uint32_t key = 0;  ///< of the window it belongs to
   };
-  KnownWindow* withKey(std::uint32_t key);
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
