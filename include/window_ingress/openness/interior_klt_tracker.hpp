@@ -23,8 +23,6 @@ class InteriorKltTracker {
   /// \throws std::invalid_argument that lists every parameter out of range
   explicit InteriorKltTracker(const InteriorKltParams& params);
   ~InteriorKltTracker();
-  InteriorKltTracker(InteriorKltTracker&&) noexcept;
-  InteriorKltTracker& operator=(InteriorKltTracker&&) noexcept;
 
   /// \param image CV_8UC1 or CV_8UC3 (BGR), in which the window was seen; not kept
   /// \param window receives `interior`. A window that is not whole gets none; another `target_id`, or time

@@ -28,7 +28,6 @@ struct DepthParts {
 class TrackEvidence {
  public:
   void see(const PointParallax& look);
-  bool empty() const { return looks_ == 0; }
   const PointParallax& best() const { return best_; }
   const PointParallax& last() const { return last_; }
   /// Seen from two places at least that tell, and all of it agrees with a point that stands still.
@@ -53,7 +52,6 @@ struct StretchSays {
   double log_odds = 0.0;                      ///< open over closed, within `kMaxLogOdds`; 0: nothing
   int points = 0;                             ///< that stand still and were seen from places enough
   int unsteady = 0;                           ///< that do not stand still
-  int too_deep = 0;                           ///< that lie behind any room
   double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without any
   bool is_too_deep = false;  ///< so much of it lies behind any room that it does not speak for an open way
   bool is_moving = false;    ///< so much does not stand still that nothing is said

@@ -85,6 +85,7 @@ void KeyframeEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
 StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
                                    const OpennessParams& params) const {
   StretchSays says;
+  int too_deep = 0;  // points that lie behind any room
   std::vector<double> odds, depths, sigmas;
   for (const Entry& entry : entries_) {
     if (!entry.track.isTested()) continue;
@@ -98,7 +99,7 @@ StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
     odds.push_back(log_odds);
     depths.push_back(depthOf(best.part, distance_m));
     sigmas.push_back(depthSigma(best.part, best.part_sigma, distance_m));
-    says.too_deep += best.part - 2.0 * best.part_sigma > parts.open_to;
+    too_deep += best.part - 2.0 * best.part_sigma > parts.open_to;
   }
   says.points = static_cast<int>(odds.size());
   const int all = says.points + says.unsteady;
@@ -106,7 +107,7 @@ StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
   if (says.points < kMinPoints) return says;
   says.depth_m = geometry::median(depths);
   says.depth_sigma_m = geometry::median(sigmas);
-  says.is_too_deep = says.too_deep > kMaxTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
+  says.is_too_deep = too_deep > kMaxTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
   if (!says.is_moving) says.log_odds = std::clamp(geometry::median(odds), -kMaxLogOdds, kMaxLogOdds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
   return says;

@@ -32,7 +32,11 @@ constexpr double kMinAge_sec = 0.3;  // of a key image whose points were lost
 constexpr int kGradientBlock = 5;
 constexpr double kBlur_px = 0.8;  // against the noise of dark images
 
-cv::Point2f toCv(const Eigen::Vector2d& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
+std::array<cv::Point2f, 4> toCv(const Quadrilateral& quad) {
+  std::array<cv::Point2f, 4> points;
+  for (int i = 0; i < 4; ++i) points[i] = {static_cast<float>(quad[i].x()), static_cast<float>(quad[i].y())};
+  return points;
+}
 
 // The rectangle whose sides are as long as the quadrilateral's in the mean, scaled down to `max_side_px`.
 cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
@@ -44,18 +48,11 @@ cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
 
 // From the image to its straightened opening; outer borders of the outermost pixels lie on the opening's.
 cv::Matx33d straightening(const Quadrilateral& corners, const cv::Size& size) {
-  const std::array<cv::Point2f, 4> from{toCv(corners[0]), toCv(corners[1]), toCv(corners[2]),
-                                        toCv(corners[3])};
+  const auto from = toCv(corners);
   const float right = static_cast<float>(size.width) - 0.5f, bottom = static_cast<float>(size.height) - 0.5f;
   const std::array<cv::Point2f, 4> to{cv::Point2f(-0.5f, -0.5f), cv::Point2f(right, -0.5f),
                                       cv::Point2f(right, bottom), cv::Point2f(-0.5f, bottom)};
   return cv::getPerspectiveTransform(from.data(), to.data());
-}
-
-cv::Rect around(const Quadrilateral& corners) {
-  const std::array<cv::Point2f, 4> points{toCv(corners[0]), toCv(corners[1]), toCv(corners[2]),
-                                          toCv(corners[3])};
-  return cv::boundingRect(points);
 }
 
 Eigen::Vector2d mapped(const cv::Matx33d& H, const cv::Point2f& p) {
@@ -121,7 +118,7 @@ struct InteriorKltTracker::Impl {
 
 void InteriorKltTracker::Impl::straighten(const cv::Mat& image, const Quadrilateral& corners) {
   to_straight = straightening(corners, size);
-  const cv::Rect part = around(corners) & cv::Rect(0, 0, image.cols, image.rows);
+  const cv::Rect part = cv::boundingRect(toCv(corners)) & cv::Rect(0, 0, image.cols, image.rows);
   if (part.empty()) {
     straight = cv::Mat::zeros(size, CV_8UC1);
     return;
@@ -279,8 +276,6 @@ InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params)
   if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
 }
 InteriorKltTracker::~InteriorKltTracker() = default;
-InteriorKltTracker::InteriorKltTracker(InteriorKltTracker&&) noexcept = default;
-InteriorKltTracker& InteriorKltTracker::operator=(InteriorKltTracker&&) noexcept = default;
 
 void InteriorKltTracker::reset() { impl_->has_key = false; }
 
