@@ -14,8 +14,7 @@
 namespace window_ingress::detection {
 namespace {
 
-const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kOrange(0, 140, 255), kBlue(255, 120, 0),
-    kWhite(255, 255, 255);
+const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kOrange(0, 140, 255), kBlue(255, 120, 0);
 constexpr double kFaded = 0.45, kTint = 0.3;
 
 std::vector<cv::Point> pixelsOf(const geometry::Quadrilateral& quad) {
@@ -42,8 +41,8 @@ void tint(const cv::Mat& image, const cv::Mat& mask, const cv::Scalar& colour, c
 void write(cv::Mat& canvas, const std::string& text, int height) {
   cv::copyMakeBorder(canvas, canvas, 0, height, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
   const double scale = std::min(height / 40.0, canvas.cols / (20.0 * static_cast<double>(text.size())));
-  cv::putText(canvas, text, {6, canvas.rows - height / 3}, cv::FONT_HERSHEY_SIMPLEX, scale, kWhite, 1,
-              cv::LINE_AA);
+  cv::putText(canvas, text, {6, canvas.rows - height / 3}, cv::FONT_HERSHEY_SIMPLEX, scale,
+              cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
 }
 
 constexpr double kDim = 0.8;    ///< of the image's brightness remains, so that lines stand out
