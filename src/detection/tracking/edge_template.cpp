@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace window_ingress::detection {
 namespace {
@@ -20,17 +21,12 @@ struct Correlations {
 };
 
 template <typename Pattern>
-float energyOf(const Pattern& pattern, int size) {
-  float sum = 0.0f;
-  for (int k = 0; k < size; ++k) sum += pattern[k] * pattern[k];
-  return sum;
-}
-
-template <typename Pattern>
 void correlate(const float* mean, int channels, int width, const Pattern& pattern, int half, int reach,
                float* by_shift) {
   const int size = 2 * half + 1, middle = width / 2;
-  const float wanted = energyOf(pattern, channels * size), floor = kFaintPart * kFaintPart * wanted;
+  const auto end = pattern.begin() + channels * size;
+  const float wanted = std::inner_product(pattern.begin(), end, pattern.begin(), 0.0f);
+  const float floor = kFaintPart * kFaintPart * wanted;
   for (int shift = -reach; shift <= reach; ++shift) {
     float product = 0.0f, energy = 0.0f;
     for (int c = 0; c < channels; ++c) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 namespace window_ingress::openness {
@@ -53,11 +54,7 @@ Patch slopesOf(const Patch& patch) {
   return slopes;
 }
 
-double dot(const Patch& a, const Patch& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i] * b[i]);
-  return sum;
-}
+double dot(const Patch& a, const Patch& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
 }  // namespace
 
