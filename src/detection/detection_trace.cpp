@@ -113,12 +113,4 @@ void traceFollowed(const WindowObservation& window, DetectionTrace& trace) {
   trace.target = 0;
 }
 
-void traceRefused(const DetectionTrace& search, RejectReason reason, const std::string& detail,
-                  DetectionTrace& trace) {
-  trace = search;
-  trace.target = -1;
-  trace.outcome = reason;
-  trace.detail = detail;
-}
-
 }  // namespace window_ingress::detection

@@ -203,10 +203,8 @@ WindowTracker::~WindowTracker() = default;
 void WindowTracker::setParams(const DetectorParams& params) {
   impl_->detector.setParams(params);
   impl_->params = params;
-  impl_->refinement = BorderRefinement();
   impl_->quad_tracker = QuadTracker();
-  const TrackMemory before = impl_->memory;
-  impl_->memory = TrackMemory(params.track, before.id());
+  impl_->memory = TrackMemory(params.track, impl_->memory.id());
   impl_->recheck = TrackRecheck(params.track);
   impl_->reference.setParams(params);
   impl_->images = ImageSequence(params.track.max_gap_sec);

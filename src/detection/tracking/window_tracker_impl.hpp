@@ -42,9 +42,13 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input, const WindowObservation& found);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
+  /// The search's window is not taken.
   void refuse(RejectReason reason, const std::string& detail) {
     has_own_trace = true;
-    traceRefused(detector.trace(), reason, detail, own_trace);
+    own_trace = detector.trace();
+    own_trace.target = -1;
+    own_trace.outcome = reason;
+    own_trace.detail = detail;
   }
   std::optional<WindowObservation> complete(const TrackInput& input);
   std::optional<WindowObservation> askSearch(const TrackInput& input);
