@@ -48,9 +48,9 @@ auto withNumber(Windows& windows, std::uint32_t KnownWindow::*number, std::uint3
   return it == windows.end() ? nullptr : &*it;
 }
 
-// What is known of two that are one.
-void absorb(KnownWindow& window, const KnownWindow& twin) {
-  if (window.id == 0) window.id = twin.id;
+// What is known of two that are one. Of two numbers the kept one stays, else the older one's.
+void absorb(KnownWindow& window, const KnownWindow& twin, std::uint32_t kept) {
+  if (window.id == 0 || (twin.id != 0 && twin.id == kept)) window.id = twin.id;
   window.place = fused(window.place, twin.place);
   window.last_seen_sec = std::max(window.last_seen_sec, twin.last_seen_sec);
   window.sights += twin.sights;
@@ -121,8 +121,16 @@ void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
       if (a.key != 0 && a.key < b.key) apart_.emplace(a.key, b.key);
 }
 
+// What was seen beside the younger one is not the older one either.
+void FacadeMap::passOnNeighbours(std::uint32_t younger, std::uint32_t older) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> apart;
+  for (const auto& [a, b] : apart_)
+    apart.insert(std::minmax(a == younger ? older : a, b == younger ? older : b));
+  apart_ = std::move(apart);
+}
+
 // The older one stays.
-void FacadeMap::merge() {
+void FacadeMap::merge(std::uint32_t kept) {
   for (std::size_t i = 0; i < windows_.size(); ++i)
     for (std::size_t k = windows_.size(); --k > i;) {
       KnownWindow &older = windows_[i], &younger = windows_[k];
@@ -130,7 +138,8 @@ void FacadeMap::merge() {
           !sizesAgree(older.place, younger.place))
         continue;
       if (followed_key_ == younger.key) followed_key_ = older.key;
-      absorb(older, younger);
+      absorb(older, younger, kept);
+      passOnNeighbours(younger.key, older.key);
       windows_.erase(windows_.begin() + static_cast<std::ptrdiff_t>(k));
     }
 }
@@ -163,7 +172,7 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
   associate(view, sights);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
-  merge();
+  merge(kept);
   prune(view, wall.has_value(), kept);
 }
 

@@ -52,7 +52,8 @@ class FacadeMap {
   static bool isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for);
   /// \param wall in which unknown windows are taken to lie
   /// \param looked_for size that windows are taken to have where nothing else tells their distance; what is
-  /// less than half as wide or high is no window \param kept number of one that is not forgotten
+  /// less than half as wide or high is no window \param kept number of one that is not forgotten, and which
+  /// it keeps where it turns out to be one with another
   void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
            std::uint32_t kept = 0);
   /// A place that is better known than by one sight.
@@ -77,7 +78,8 @@ class FacadeMap {
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
-  void merge();
+  void merge(std::uint32_t kept);
+  void passOnNeighbours(std::uint32_t younger, std::uint32_t older);
   void prune(const FacadeView& view, bool knows_wall, std::uint32_t kept);
   double squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const;
 

@@ -110,6 +110,34 @@ TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySid
   EXPECT_EQ(confirmed(near), 2);
 }
 
+// 0 and 1 are seen side by side, later 2 alone. 2 turns out to be 1, and then to stand where 0 does.
+TEST(FacadeMap, WhatWasSeenBesideAWindowStaysApartFromTheOneThatItBecomes) {
+  std::mt19937 random(9);
+  test::WindowRow row;
+  const Viewpoint view = row.from({-8.0, -2.0, 1.5});
+  const auto look = [&](FacadeMap& map, double begin_sec, std::initializer_list<int> shown) {
+    for (int n = 0; n < 4; ++n) {
+      FacadeView seen{begin_sec + 0.1 * n, view, {}, 0};
+      for (const int i : shown) seen.windows.push_back(*row.seen(i, view, random));
+      map.see(seen, kWall, row.size);
+    }
+  };
+  const auto placed = [&](int i) {
+    return WindowPlace{row.centre(i), 1e-4 * Eigen::Matrix3d::Identity(), 0.0, row.size, true};
+  };
+  FacadeMap map{FacadeParams()};
+  look(map, 10.0, {2});
+  look(map, 11.0, {0, 1});
+  ASSERT_EQ(confirmed(map), 3);
+  const std::uint32_t oldest = map.windows()[0].id, beside = map.windows()[1].id;
+  map.correct(oldest, placed(1));
+  look(map, 12.0, {});
+  ASSERT_EQ(confirmed(map), 2) << "2 is 1";
+  map.correct(oldest, placed(0));
+  look(map, 13.0, {});
+  EXPECT_NE(map.find(beside), nullptr) << "0 was seen beside it";
+}
+
 TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
   std::mt19937 random(10);
   test::WindowRow row, panes;

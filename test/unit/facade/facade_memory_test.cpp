@@ -89,6 +89,27 @@ TEST(FacadeMemory, LetsTheOperatorChooseByNumberOrByAClick) {
   EXPECT_EQ(watch.memory.target(), &watch.at(0)) << "what was refused changes nothing";
 }
 
+// Windows 1 and 3 of the row, never seen side by side, until the filter finds that 3 stands where 1 does.
+TEST(FacadeMemory, AChosenWindowStaysTheTargetWhereItTurnsOutToBeOneWithAnOlderOne) {
+  Watch watch;
+  const auto look = [&](int seen, bool is_target, const std::optional<estimation::FilteredWindow>& filtered) {
+    for (int n = 0; n < 4; ++n, watch.now_sec += 0.1) {
+      auto window = *watch.row.seen(seen, watch.view, watch.random);
+      window.is_target = is_target;
+      watch.memory.see({watch.now_sec, watch.view, {window}, is_target ? 7u : 0u}, filtered, watch.row.size);
+    }
+  };
+  look(1, false, std::nullopt);
+  look(3, true, std::nullopt);
+  ASSERT_EQ(watch.memory.windows().size(), 2u);
+  const std::uint32_t younger = watch.memory.windows().back().id;
+  ASSERT_TRUE(watch.memory.select(younger).success);
+  look(3, true, watch.row.filtered(1, watch.now_sec));
+  EXPECT_EQ(watch.memory.windows().front().id, younger) << "of two numbers the chosen one stays";
+  EXPECT_EQ(watch.memory.targetId(), younger);
+  EXPECT_TRUE(watch.memory.isChosen());
+}
+
 TEST(FacadeMemory, AChoiceIsTakenBackByZero) {
   Watch watch;
   watch.look(20, 2);
