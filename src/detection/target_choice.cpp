@@ -49,7 +49,7 @@ std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) c
   if (rival.located && rival.correlation) return reference_.objectionTo(rival.match, rival.appearance);
   if (rival.appearance)
     if (const auto refused = reference_.objectionTo(*rival.appearance)) return refused;
-  if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
+  if (rival.verdict != RejectReason::kNone) return Rejection{rival.verdict, rival.rank(), 0.0};
   if (const double least = leastScore(rival); rival.score < least)
     return Rejection{RejectReason::kScore, rival.score, least};
   return std::nullopt;

@@ -86,7 +86,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(const Vie
   rivals.insert(rivals.end(), search.kept().begin(), search.kept().end());
   if (!reference.judgeFrames(view.image, view.camera, rivals)) return std::nullopt;
   for (ScoredCandidate& rival : rivals)
-    if (!rival.located || !rival.appearance) rival.verdict.reject = RejectReason::kDuplicate;
+    if (!rival.located || !rival.appearance) rival.verdict = RejectReason::kDuplicate;
   return choose(view);
 }
 

@@ -60,7 +60,7 @@ std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough
   ScoredCandidate rival = rough;
   rival.quad = *quad;
   rival.candidate.source = CandidateSource::kReference;
-  rival.verdict = NestedVerdict();
+  rival.verdict = RejectReason::kNone;
   rival.proposal = 0.0;
   rival.located = true;
   rival.size = 1.0;

@@ -32,12 +32,6 @@ struct Candidate {
   std::array<SideSupport, 4> sides;
 };
 
-/// What the loops of a scene are to each other.
-struct NestedVerdict {
-  RejectReason reject = RejectReason::kNone;  ///< kOuterBorder, kPane, or kNone
-  int other = -1;                             ///< the loop that is taken in its place
-};
-
 /// A candidate that passed the gates on single candidates, and what is found out about it.
 struct ScoredCandidate {
   Candidate candidate;
@@ -45,12 +39,12 @@ struct ScoredCandidate {
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   double proposal = 0.0;         ///< its rank in the search; 0 where its borders were located afterwards
-  NestedVerdict verdict;
-  std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
-  bool located = false;                       ///< its borders are where the reference's are
-  std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
-  RingMatch match;                            ///< of that place, finely compared
-  double geometry = 0.0;                      ///< then: its score by geometry alone
+  RejectReason verdict = RejectReason::kNone;  ///< kOuterBorder, kPane, kDuplicate: another one is taken
+  std::optional<AppearanceMatch> appearance;   ///< beside the reference, where it can be compared
+  bool located = false;                        ///< its borders are where the reference's are
+  std::optional<double> correlation;           ///< with the reference's surroundings, where they were aligned
+  RingMatch match;                             ///< of that place, finely compared
+  double geometry = 0.0;                       ///< then: its score by geometry alone
   double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
 
   double rank() const { return score * size; }

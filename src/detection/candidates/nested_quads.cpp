@@ -30,8 +30,7 @@ cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
 
 // Distance of a point from side i of a quadrilateral in canonical order, positive towards its inside.
 double depth(const Quadrilateral& quad, int i, const Vector2d& point) {
-  const Vector2d along = (quad[(i + 1) % 4] - quad[i]).normalized(), d = point - quad[i];
-  return along.x() * d.y() - along.y() * d.x();
+  return cross((quad[(i + 1) % 4] - quad[i]).normalized(), point - quad[i]);
 }
 
 bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
@@ -56,28 +55,24 @@ double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadri
   return std::sqrt(squares / kRingSamples);
 }
 
-cv::Vec3d ringColour(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
-  cv::Vec3d mean, side;
+/// The ring between two loops, in the middle of its sides.
+struct RingBetween {
+  cv::Vec3d colour;
+  double spread = 0.0;  ///< of its four sides about that or of one along itself, the larger [grey levels]
+};
+
+RingBetween ringBetween(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
+  RingBetween ring;
+  std::array<cv::Vec3d, 4> sides;
   for (int i = 0; i < 4; ++i) {
-    sideColour(image, outer, inner, i, side);
-    mean += 0.25 * side;
+    ring.spread = std::max(ring.spread, sideColour(image, outer, inner, i, sides[i]));
+    ring.colour += 0.25 * sides[i];
   }
-  return mean;
+  for (const cv::Vec3d& side : sides) ring.spread = std::max(ring.spread, cv::norm(side - ring.colour));
+  return ring;
 }
 
 }  // namespace
-
-double ringSpread(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
-  double spread = 0.0;
-  cv::Vec3d mean;
-  std::array<cv::Vec3d, 4> sides;
-  for (int i = 0; i < 4; ++i) {
-    spread = std::max(spread, sideColour(image, outer, inner, i, sides[i]));
-    mean += 0.25 * sides[i];
-  }
-  for (const cv::Vec3d& side : sides) spread = std::max(spread, cv::norm(side - mean));
-  return spread;
-}
 
 bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
   if (!isWithin(outer, inner, 0.0)) return false;
@@ -91,53 +86,42 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
          most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
-std::vector<NestedVerdict> nestedVerdicts(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
-                                          const std::vector<double>& scores, double tolerance_px) {
-  const int count = static_cast<int>(quads.size());
-  std::vector<NestedVerdict> verdicts(count);
-  std::vector<int> order(count);
-  std::vector<double> areas(count);
-  for (int i = 0; i < count; ++i) areas[i] = std::abs(geometry::signedArea(quads[i]));
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals) {
+  const double tolerance_px = kLoopTolerancePx * factor;
+  std::vector<int> order(rivals.size()), inner_border(rivals.size(), -1);
+  std::vector<double> areas;
+  for (const ScoredCandidate& rival : rivals) areas.push_back(std::abs(geometry::signedArea(rival.quad)));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return areas[a] > areas[b]; });
 
   for (std::size_t a = 0; a < order.size(); ++a) {
     const int outer = order[a];
-    if (verdicts[outer].reject != RejectReason::kNone) continue;
+    if (rivals[outer].verdict != RejectReason::kNone) continue;
     int front = outer;
     cv::Vec3d paint;
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       const int inner = order[b];
-      if (verdicts[inner].reject != RejectReason::kNone) continue;
-      if (!isWithin(quads[front], quads[inner], tolerance_px)) continue;
-      if (isConcentric(quads[front], quads[inner], tolerance_px) &&
-          ringSpread(image, quads[front], quads[inner]) < kUniform) {
-        const cv::Vec3d colour = ringColour(image, quads[front], quads[inner]);
-        if (front == outer) paint = colour;
-        if (cv::norm(colour - paint) < kContinued) {
-          verdicts[front] = {RejectReason::kOuterBorder, inner};
+      if (rivals[inner].verdict != RejectReason::kNone) continue;
+      const Quadrilateral &front_quad = rivals[front].quad, &inner_quad = rivals[inner].quad;
+      if (!isWithin(front_quad, inner_quad, tolerance_px)) continue;
+      if (isConcentric(front_quad, inner_quad, tolerance_px)) {
+        const RingBetween ring = ringBetween(image, front_quad, inner_quad);
+        if (front == outer) paint = ring.colour;
+        if (ring.spread < kUniform && cv::norm(ring.colour - paint) < kContinued) {
+          rivals[front].verdict = RejectReason::kOuterBorder;
+          inner_border[front] = inner;
           front = inner;
           continue;
         }
       }
-      if (areas[front] <= kMaxPanes * areas[inner] && scores[front] >= scores[inner])
-        verdicts[inner] = {RejectReason::kPane, front};
+      if (areas[front] <= kMaxPanes * areas[inner] && rivals[front].rank() >= rivals[inner].rank())
+        rivals[inner].verdict = RejectReason::kPane;
     }
   }
-  return verdicts;
-}
-
-void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals) {
-  const double tolerance_px = kLoopTolerancePx * factor;
-  std::vector<geometry::Quadrilateral> quads;
-  std::vector<double> ranks;
-  for (const ScoredCandidate& rival : rivals) quads.push_back(rival.quad), ranks.push_back(rival.rank());
-  const auto verdicts = nestedVerdicts(image, quads, ranks, tolerance_px);
-  for (std::size_t i = 0; i < rivals.size(); ++i) rivals[i].verdict = verdicts[i];
   // A frame is one thing: its inner border is as sure as its outer one.
   for (std::size_t i = 0; i < rivals.size(); ++i)
-    if (verdicts[i].reject == RejectReason::kOuterBorder) {
-      ScoredCandidate& inner = rivals[verdicts[i].other];
+    if (inner_border[i] >= 0) {
+      ScoredCandidate& inner = rivals[inner_border[i]];
       inner.score = std::max(inner.score, rivals[i].score);
     }
 }

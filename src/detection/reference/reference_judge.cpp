@@ -96,7 +96,7 @@ std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
   rival.worth = found->worth;
   rival.geometry = rough.located ? rough.geometry : rough.score;
   rival.score = scoreWithReference(rival.geometry, rival.worth);
-  rival.verdict.reject = RejectReason::kNone;
+  rival.verdict = RejectReason::kNone;
   return rival;
 }
 
@@ -131,7 +131,7 @@ void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandida
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
     if (sure)
-      rival.verdict.reject = RejectReason::kDuplicate;
+      rival.verdict = RejectReason::kDuplicate;
     else
       rival.score = updated(kUnlocatedPart * rival.score, rival.appearance ? rival.appearance->odds : 1.0);
   }
@@ -165,7 +165,7 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
   located_ = ring_.align(inChannels(image), camera, rivals);
   for (ScoredCandidate& rival : located_)
     rival.appearance = reference_->compare(image, rival.quad, appearance_);
-  for (ScoredCandidate& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
+  for (ScoredCandidate& rival : rivals) rival.verdict = RejectReason::kDuplicate;
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
 }

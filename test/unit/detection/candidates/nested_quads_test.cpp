@@ -16,14 +16,19 @@ cv::Mat framed() {
   return drawn.draw();
 }
 
-std::vector<NestedVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
-  return nestedVerdicts(image, loops, std::vector<double>(loops.size(), 1.0), 1.0);
+std::vector<RejectReason> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
+  std::vector<ScoredCandidate> rivals(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) rivals[i].quad = loops[i], rivals[i].score = 1.0;
+  judgeNestedQuads(image, 2, rivals);
+  std::vector<RejectReason> verdicts;
+  for (const ScoredCandidate& rival : rivals) verdicts.push_back(rival.verdict);
+  return verdicts;
 }
 
 TEST(NestedLoops, TheInnerBorderOfAFrameWins) {
   const auto verdicts = judge(framed(), {test::grown(kOpening, 10), kOpening});
-  EXPECT_EQ(verdicts[0].reject, RejectReason::kOuterBorder);
-  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[0], RejectReason::kOuterBorder);
+  EXPECT_EQ(verdicts[1], RejectReason::kNone);
 }
 
 TEST(NestedLoops, TheBackBorderOfTheRevealLoses) {
@@ -31,9 +36,9 @@ TEST(NestedLoops, TheBackBorderOfTheRevealLoses) {
   test::fillQuad(image, kOpening, cv::Scalar(120, 120, 125));
   test::fillQuad(image, test::grown(kOpening, -8), cv::Scalar(40, 40, 40));
   const auto verdicts = judge(image, {test::grown(kOpening, 10), kOpening, test::grown(kOpening, -8)});
-  EXPECT_EQ(verdicts[0].reject, RejectReason::kOuterBorder);
-  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
-  EXPECT_EQ(verdicts[2].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[0], RejectReason::kOuterBorder);
+  EXPECT_EQ(verdicts[1], RejectReason::kNone);
+  EXPECT_EQ(verdicts[2], RejectReason::kPane);
 }
 
 TEST(NestedLoops, WithoutAFrameTheFrontWinsOverTheBack) {
@@ -44,8 +49,8 @@ TEST(NestedLoops, WithoutAFrameTheFrontWinsOverTheBack) {
   image(cv::Rect(100, 164, 120, 6)).setTo(cv::Scalar(220, 220, 225));
   test::fillQuad(image, back, cv::Scalar(30, 30, 30));
   const auto verdicts = judge(image, {back, kOpening});
-  EXPECT_EQ(verdicts[0].reject, RejectReason::kPane);
-  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[0], RejectReason::kPane);
+  EXPECT_EQ(verdicts[1], RejectReason::kNone);
 }
 
 TEST(NestedLoops, PanesBetweenMullionsLose) {
@@ -53,15 +58,15 @@ TEST(NestedLoops, PanesBetweenMullionsLose) {
   const auto left = test::rectangle(100, 80, 156, 170), right = test::rectangle(164, 80, 220, 170);
   image(cv::Rect(156, 80, 8, 90)).setTo(cv::Scalar(50, 140, 215));
   const auto verdicts = judge(image, {left, right, kOpening});
-  EXPECT_EQ(verdicts[0].reject, RejectReason::kPane);
-  EXPECT_EQ(verdicts[1].reject, RejectReason::kPane);
-  EXPECT_EQ(verdicts[2].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[0], RejectReason::kPane);
+  EXPECT_EQ(verdicts[1], RejectReason::kPane);
+  EXPECT_EQ(verdicts[2], RejectReason::kNone);
 }
 
 TEST(NestedLoops, LoopsApartDoNotMatterToEachOther) {
   const auto verdicts = judge(framed(), {kOpening, test::rectangle(10, 10, 60, 50)});
-  EXPECT_EQ(verdicts[0].reject, RejectReason::kNone);
-  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[0], RejectReason::kNone);
+  EXPECT_EQ(verdicts[1], RejectReason::kNone);
   EXPECT_TRUE(judge(framed(), {}).empty());
 }
 
