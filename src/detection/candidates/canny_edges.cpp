@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdlib>
 #include <opencv2/core/hal/intrin.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kRowGap = 32;  ///< between rows that are read and written at once, for the vectorizer
 constexpr int kLanes = cv::v_int16x8::nlanes;
 constexpr int kEveryRow = 4;  ///< the thresholds are estimated from these rows
 constexpr uchar kWeak = 1, kStrong = 2, kEdge = 255;
@@ -31,12 +31,14 @@ void strongestOfThree(const short* dx3, const short* dy3, short* dx, short* dy) 
   cv::v_store(dy, cv::v_select(by_third, y2, cv::v_select(by_second, y1, y0)));
 }
 
-// The same for a row; its last pixels are done together, some of them twice. The arrays of three are readable
-// for as many pixels as there are lanes.
+// The same for a row; its last pixels are done together, some of them twice.
 void strongestInRow(const short* dx3, const short* dy3, int pixels, short* dx, short* dy) {
   if (pixels < kLanes) {
+    std::array<short, 3 * kLanes> wide_dx3{}, wide_dy3{};
     std::array<short, kLanes> wide_dx, wide_dy;
-    strongestOfThree(dx3, dy3, wide_dx.data(), wide_dy.data());
+    std::copy_n(dx3, 3 * pixels, wide_dx3.data());
+    std::copy_n(dy3, 3 * pixels, wide_dy3.data());
+    strongestOfThree(wide_dx3.data(), wide_dy3.data(), wide_dx.data(), wide_dy.data());
     std::copy_n(wide_dx.data(), pixels, dx);
     std::copy_n(wide_dy.data(), pixels, dy);
     return;
@@ -44,28 +46,6 @@ void strongestInRow(const short* dx3, const short* dy3, int pixels, short* dx, s
   for (int i = 0; i < pixels; i += kLanes) {
     const int at = std::min(i, pixels - kLanes);
     strongestOfThree(dx3 + 3 * at, dy3 + 3 * at, dx + at, dy + at);
-  }
-}
-
-// What the two Sobel kernels ask of a column of three pixels, for all columns of a row. `mean` and `change`
-// have a pixel of margin before the first and after the last.
-void sumColumns(const uchar* above, const uchar* here, const uchar* below, int values, short* mean,
-                short* change) {
-  for (int i = 0; i < values; ++i) {
-    mean[i] = static_cast<short>(above[i] + 2 * here[i] + below[i]);
-    change[i] = static_cast<short>(below[i] - above[i]);
-  }
-}
-
-void repeatEnds(short* row, int values, int channels) {
-  std::copy(row, row + channels, row - channels);
-  std::copy(row + values - channels, row + values, row + values);
-}
-
-void sumRows(const short* mean, const short* change, int values, int channels, short* dx, short* dy) {
-  for (int i = 0; i < values; ++i) {
-    dx[i] = static_cast<short>(mean[i + channels] - mean[i - channels]);
-    dy[i] = static_cast<short>(change[i - channels] + 2 * change[i] + change[i + channels]);
   }
 }
 
@@ -95,26 +75,21 @@ void thinRow(const short* above, const short* here, const short* below, const sh
 
 }  // namespace
 
-// Sobel in both directions, border repeated, row by row: the rows in between stay in the cache.
 void EdgeDetector::gradient(const cv::Mat& image) {
-  const int channels = image.channels(), values = image.cols * channels;
+  constexpr int kBorder = cv::BORDER_REPLICATE | cv::BORDER_ISOLATED;
+  const bool is_grey = image.channels() == 1;
+  cv::Mat &all_dx = is_grey ? map_.dx : all_dx_, &all_dy = is_grey ? map_.dy : all_dy_;
+  cv::Sobel(image, all_dx, CV_16S, 1, 0, 3, 1.0, 0.0, kBorder);
+  cv::Sobel(image, all_dy, CV_16S, 0, 1, 3, 1.0, 0.0, kBorder);
+  if (is_grey) return;
   map_.dx.create(image.size(), CV_16SC1);
   map_.dy.create(image.size(), CV_16SC1);
-  rows_.create(4, values + 2 * channels + kRowGap, CV_16SC1);
-  short *mean = rows_.ptr<short>(0) + channels, *change = rows_.ptr<short>(1) + channels;
-  short *dx3 = rows_.ptr<short>(2), *dy3 = rows_.ptr<short>(3);
-  for (int y = 0; y < image.rows; ++y) {
-    short *dx = map_.dx.ptr<short>(y), *dy = map_.dy.ptr<short>(y);
-    sumColumns(image.ptr(std::max(0, y - 1)), image.ptr(y), image.ptr(std::min(image.rows - 1, y + 1)),
-               values, mean, change);
-    repeatEnds(mean, values, channels);
-    repeatEnds(change, values, channels);
-    sumRows(mean, change, values, channels, channels == 1 ? dx : dx3, channels == 1 ? dy : dy3);
-    if (channels == 3) strongestInRow(dx3, dy3, image.cols, dx, dy);
-  }
+  for (int y = 0; y < image.rows; ++y)
+    strongestInRow(all_dx.ptr<short>(y), all_dy.ptr<short>(y), image.cols, map_.dx.ptr<short>(y),
+                   map_.dy.ptr<short>(y));
 }
 
-// |dx| + |dy| of every pixel, and the two thresholds.
+// |dx| + |dy| of every pixel.
 void EdgeDetector::measureStrength() {
   strength_.create(map_.dx.size(), CV_16SC1);
   for (int y = 0; y < map_.dx.rows; ++y) {
@@ -125,7 +100,8 @@ void EdgeDetector::measureStrength() {
   }
 }
 
-void EdgeDetector::chooseThresholds() {
+// So that a part of all pixels is weaker [grey levels a pixel].
+double EdgeDetector::upperThreshold() const {
   std::array<int, 2048> histogram{};
   int count = 0;
   for (int y = 0; y < strength_.rows; y += kEveryRow) {
@@ -137,8 +113,7 @@ void EdgeDetector::chooseThresholds() {
   double below = 0.0;
   std::size_t bin = 0;
   while (bin + 1 < histogram.size() && (below += histogram[bin]) < wanted) ++bin;
-  map_.high = std::clamp(bin / EdgeMap::kSobelGain, params_.floor, std::max(params_.floor, params_.ceiling));
-  map_.low = params_.low_ratio * map_.high;
+  return std::clamp(bin / EdgeMap::kSobelGain, params_.floor, std::max(params_.floor, params_.ceiling));
 }
 
 // Pixels stronger than their two neighbours across the edge: kWeak, or kStrong above the upper threshold.
@@ -146,11 +121,14 @@ void EdgeDetector::chooseThresholds() {
 void EdgeDetector::thin() {
   map_.edges.create(strength_.size(), CV_8UC1);
   map_.edges.setTo(0);
-  const auto low = static_cast<short>(std::floor(map_.low * EdgeMap::kSobelGain)),
-             high = static_cast<short>(std::floor(map_.high * EdgeMap::kSobelGain));
+  const auto in_sums = [](double slope) {
+    return static_cast<short>(std::floor(slope * EdgeMap::kSobelGain));
+  };
+  const double high = upperThreshold(), low = params_.low_ratio * high;
+  const Thresholds limits{in_sums(low), in_sums(high)};
   for (int y = 1; y + 1 < strength_.rows; ++y)
     thinRow(strength_.ptr<short>(y - 1), strength_.ptr<short>(y), strength_.ptr<short>(y + 1),
-            map_.dx.ptr<short>(y), map_.dy.ptr<short>(y), {low, high}, strength_.cols, map_.edges.ptr(y));
+            map_.dx.ptr<short>(y), map_.dy.ptr<short>(y), limits, strength_.cols, map_.edges.ptr(y));
 }
 
 // Weak pixels stay if they are connected with a strong one.
@@ -179,7 +157,6 @@ void EdgeDetector::followStrong() {
 const EdgeMap& EdgeDetector::run(const cv::Mat& image) {
   gradient(image);
   measureStrength();
-  chooseThresholds();
   thin();
   followStrong();
   return map_;

@@ -12,9 +12,8 @@ struct EdgeMap {
   /// `dx` and `dy` are Sobel sums: this many times the gradient in grey levels a pixel.
   static constexpr double kSobelGain = 8.0;
 
-  cv::Mat edges;                 ///< CV_8UC1, 0 or 255, one pixel wide
-  cv::Mat dx, dy;                ///< CV_16SC1, of the channel with the strongest gradient at that pixel
-  double low = 0.0, high = 0.0;  ///< thresholds used [grey levels a pixel]
+  cv::Mat edges;   ///< CV_8UC1, 0 or 255, one pixel wide
+  cv::Mat dx, dy;  ///< CV_16SC1, of the channel with the strongest gradient at that pixel
 };
 
 /// Canny (P3) with thresholds that follow the image. Colours count: the gradient is that of the strongest
@@ -29,14 +28,14 @@ class EdgeDetector {
  private:
   void gradient(const cv::Mat& image);
   void measureStrength();
-  void chooseThresholds();
+  double upperThreshold() const;
   void thin();
   void followStrong();
 
   EdgeMapParams params_;
   EdgeMap map_;
-  cv::Mat rows_;      ///< what `gradient` keeps of one row
-  cv::Mat strength_;  ///< CV_16SC1, |dx| + |dy|
+  cv::Mat all_dx_, all_dy_;  ///< CV_16SC3, of all channels
+  cv::Mat strength_;         ///< CV_16SC1, |dx| + |dy|
   std::vector<uchar*> waiting_;
 };
 
