@@ -27,8 +27,6 @@ struct EdgeChain {
   LineMoments moments;       ///< of its pixels
   double contrast = 0.0;     ///< mean gradient [grey levels a pixel]
   int first = 0, count = 0;  ///< of its pixels, see EdgeChains::pixels
-
-  double length() const { return (b - a).norm(); }
 };
 
 /// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel

@@ -13,7 +13,7 @@ constexpr double kOffLine =
 constexpr double kLineBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
 constexpr double kJoinGap =
     0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
-constexpr int kMaxSegments = 300;  ///< the strongest are kept
+constexpr std::size_t kMaxSegments = 300;  ///< the strongest are kept
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
 constexpr double kMinSeed = 0.6;      ///< part of the shortest segment that one run of it must cover
@@ -31,9 +31,8 @@ Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
   return along.dot(like) < 0.0 ? Vector2d(-along) : along;
 }
 
-}  // namespace
-
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow) {
+// Adds the segments that two pieces of one line make together; the pieces stay.
+void joinCollinear(std::vector<Segment>& segments, double off_line_px) {
   const std::size_t count = std::min(segments.size(), kMaxJoined);
   for (std::size_t i = 0; i < count; ++i) {
     const Segment p = segments[i];
@@ -43,9 +42,9 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
       const Segment& q = segments[j];
       if (p.normal.dot(q.normal) < kSameDirection) continue;
       const double gap = along.dot(q.a - p.b);
-      if (gap < 0.0 || gap > max_gap * (p_length + q.length())) continue;
+      if (gap < 0.0 || gap > kJoinGap * (p_length + q.length())) continue;
       const Vector2d joint = (q.b - p.a).normalized(), normal = right(joint);
-      const double off_px = off_line_px + bow * (p.pixels + q.pixels);
+      const double off_px = off_line_px + kLineBow * (p.pixels + q.pixels);
       if (std::abs(normal.dot(p.b - p.a)) > off_px || std::abs(normal.dot(q.a - p.a)) > off_px) continue;
       const double pixels = p.pixels + q.pixels;
       const double contrast = (p.contrast * p.pixels + q.contrast * q.pixels) / pixels;
@@ -53,6 +52,16 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
     }
   }
 }
+
+// The strongest, by length and the root of the contrast.
+void keepStrongest(std::vector<Segment>& segments) {
+  std::stable_sort(segments.begin(), segments.end(), [](const Segment& p, const Segment& q) {
+    return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
+  });
+  if (segments.size() > kMaxSegments) segments.resize(kMaxSegments);
+}
+
+}  // namespace
 
 void HoughSegments::prepare(const cv::Size& level) {
   const double side = std::max(level.width, level.height);
@@ -194,14 +203,9 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
     for (int i : taken_) used_[i] = 1;
     segments_.push_back(segment);
   }
-  const auto stronger = [](const Segment& p, const Segment& q) {
-    return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
-  };
-  std::stable_sort(segments_.begin(), segments_.end(), stronger);
-  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
-  joinCollinear(segments_, kJoinGap, off_line_px_, kLineBow);
-  std::stable_sort(segments_.begin(), segments_.end(), stronger);
-  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
+  keepStrongest(segments_);
+  joinCollinear(segments_, off_line_px_);
+  keepStrongest(segments_);
   return segments_;
 }
 

@@ -20,11 +20,6 @@ struct Segment {
   double length() const { return (b - a).norm(); }
 };
 
-/// Adds the segments that two pieces of one line make together; the pieces stay.
-/// \param max_gap between them, in lengths of both \param off_line_px how far their ends may lie off the
-/// joint line
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow);
-
 /// Hough transform (P4) that selects straight segments: votes, minimum length, maximum gap. Where the
 /// probabilistic transform saves votes by drawing pixels at random, here each straight run of connected
 /// pixels votes once, with the weight of its pixels, for the lines that its gradient direction allows: some
@@ -35,7 +30,7 @@ class HoughSegments {
  public:
   explicit HoughSegments(const HoughSegmentsParams& params) : params_(params) {}
 
-  /// Strongest first, by length and the root of the contrast; at most `max_segments`. Deterministic. Valid
+  /// Strongest first, by length and the root of the contrast; at most 300. Deterministic. Valid
   /// until the next call.
   const std::vector<Segment>& run(const std::vector<EdgeChain>& runs, const cv::Size& level);
 

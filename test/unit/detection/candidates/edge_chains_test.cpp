@@ -20,7 +20,7 @@ TEST(EdgeChains, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
   EdgeChains runs;
   int sides = 0;
   for (const EdgeChain& run : runsOf(runs, image)) {
-    if (run.length() < 40.0) continue;
+    if ((run.b - run.a).norm() < 40.0) continue;
     ++sides;
     EXPECT_GT(run.normal.dot(Eigen::Vector2d(80, 60) - run.moments.mean()), 0.0);
     const Eigen::Vector2d along = (run.b - run.a).normalized();
@@ -50,7 +50,7 @@ TEST(EdgeChains, ACircleIsCutIntoShortRuns) {
   EdgeChains runs;
   const auto& found = runsOf(runs, image);
   EXPECT_GT(found.size(), 6u);
-  for (const EdgeChain& run : found) EXPECT_LT(run.length(), 60.0);
+  for (const EdgeChain& run : found) EXPECT_LT((run.b - run.a).norm(), 60.0);
 }
 
 TEST(EdgeChains, EmptyAndTinyImagesHaveNone) {
