@@ -1,6 +1,8 @@
 #pragma once
 
-#include <opencv2/core.hpp>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "window_ingress/detection/detector_params.hpp"
 
@@ -12,14 +14,20 @@ class EdgeDilation {
  public:
   explicit EdgeDilation(const ClosingParams& params) : params_(params) {}
 
-  int radiusPx(const cv::Size& size) const;
+  int radiusPx(const cv::Size& size) const {
+    return std::max(1, static_cast<int>(std::lround(params_.radius * std::max(size.width, size.height))));
+  }
 
   /// \param edges CV_8UC1. The result stays valid until the next call.
-  const cv::Mat& run(const cv::Mat& edges);
+  const cv::Mat& run(const cv::Mat& edges) {
+    const int side = 2 * radiusPx(edges.size()) + 1;
+    cv::dilate(edges, dilated_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+    return dilated_;
+  }
 
  private:
   ClosingParams params_;
-  cv::Mat dilated_, kernel_;
+  cv::Mat dilated_;
 };
 
 }  // namespace window_ingress::detection
