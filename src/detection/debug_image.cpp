@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "detection/reference/ring_histogram.hpp"
 #include "detection/reference/ring_samples.hpp"
 #include "window_ingress/detection/text_overlay.hpp"
 
@@ -160,8 +159,8 @@ cv::Mat drawReference(const ReferenceAppearance& reference) {
   if (image.channels() == 1) cv::cvtColor(reference.image(), image, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
   const cv::Mat inner = within(image.size(), opening);
-  const cv::Mat near = within(image.size(), ringLine(opening, RingWidths().near));
-  const cv::Mat far = within(image.size(), ringLine(opening, RingWidths().far));
+  const cv::Mat near = within(image.size(), ringLine(opening, RingSamples::kFrameWidth));
+  const cv::Mat far = within(image.size(), ringLine(opening, RingSamples::kSurroundWidth));
   cv::Mat canvas;
   image.convertTo(canvas, -1, kFaded);
   tint(image, far & ~near, kBlue, canvas);

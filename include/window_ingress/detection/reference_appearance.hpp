@@ -38,9 +38,9 @@ class ReferenceAppearance {
   /// outside
   ReferenceAppearance(const cv::Mat& image, const geometry::Quadrilateral& opening);
 
-  /// The whole image is the target with its frame; `frame_width` is that of the frame, in mean sides of the
-  /// image. Where the opening lies in it is a guess then, see `openingIsKnown`.
-  explicit ReferenceAppearance(const cv::Mat& image, double frame_width = 0.05);
+  /// The whole image is the target with its frame, a twentieth of it wide. Where the opening lies in it is a
+  /// guess then, see `openingIsKnown`.
+  explicit ReferenceAppearance(const cv::Mat& image);
 
   /// The same, the opening found by its geometry alone.
   static ReferenceAppearance guessed(const cv::Mat& image, const geometry::Quadrilateral& opening);

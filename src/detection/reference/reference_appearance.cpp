@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr int kMinBandPixels = 40;        ///< fewer pixels in a band are not compared
+constexpr double kGuessedFrame = 0.05;    ///< width of a frame that fills the image [mean sides of it]
 constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
 constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
 constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
@@ -24,11 +25,12 @@ constexpr double kEvenDistance = 0.8;     ///< in limits: where target and other
 constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
 
 std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening) {
-  return ringColours(image, opening, RingWidths(), kMinBandPixels);
+  return ringColours(image, opening, kMinBandPixels);
 }
 
-Quadrilateral inset(const cv::Size& size, double width) {
-  const double w = size.width - 1.0, h = size.height - 1.0, d = width * 0.5 * (w + h);
+// The opening of an image that is the target with its frame.
+Quadrilateral withinFrame(const cv::Size& size) {
+  const double w = size.width - 1.0, h = size.height - 1.0, d = kGuessedFrame * 0.5 * (w + h);
   return {Vector2d(d, d), Vector2d(w - d, d), Vector2d(w - d, h - d), Vector2d(d, h - d)};
 }
 
@@ -84,8 +86,8 @@ ReferenceAppearance::ReferenceAppearance(const cv::Mat& image, const Quadrilater
   elsewhere_ = lowQuantile(distancesElsewhere(image_, opening_, *colours));
 }
 
-ReferenceAppearance::ReferenceAppearance(const cv::Mat& image, double frame_width)
-    : ReferenceAppearance(guessed(image, inset(image.size(), frame_width))) {}
+ReferenceAppearance::ReferenceAppearance(const cv::Mat& image)
+    : ReferenceAppearance(guessed(image, withinFrame(image.size()))) {}
 
 ReferenceAppearance ReferenceAppearance::guessed(const cv::Mat& image, const Quadrilateral& opening) {
   ReferenceAppearance reference(image, opening);

@@ -78,7 +78,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
               shape_.aspect(), !frameless());
   open_borders_ = openBorders(reference_->image(), reference_->opening(), nullptr);
   beyond_ = framesBeyond(inChannels(reference_->image()), reference_->opening(), nullptr, sides_);
-  if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
+  if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), 1);
 }
 
 // The rival with its borders where the reference's are, if they are found near it.
@@ -221,7 +221,7 @@ int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
                             const RingMatch& match) const {
   if (!frame_colours_ || match.contrast >= kMinClearContrast * match.correlation) return false;
-  const auto seen = ringColours(image, corners, RingWidths(), 1);
+  const auto seen = ringColours(image, corners, 1);
   return seen && isSameThroughHaze(frame_colours_->means, seen->means);
 }
 

@@ -68,8 +68,6 @@ RingHistogram histogramOf(const RingSamples& samples, int min_pixels) {
   return histogram;
 }
 
-bool isSeen(const RingHistogram& histogram) { return histogram.bands[0].pixels > 0.0; }
-
 bool hasColour(const cv::Vec3b& pixel) {
   constexpr int kNoise = 3;
   const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
@@ -141,14 +139,14 @@ std::optional<Eigen::Vector3f> RingMeans::paint() const {
 }
 
 std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
-                                       const RingWidths& widths, int min_pixels) {
+                                       int min_pixels) {
   if (image.type() != CV_8UC3 || image.empty() || !geometry::isFinite(opening) ||
       !geometry::isConvex(opening))
     return std::nullopt;
   RingSamples samples;
-  sampleRing(image, opening, widths.near, widths.far, samples);
+  sampleRing(image, opening, samples);
   const RingColours colours{histogramOf(samples, min_pixels), meansOf(samples)};
-  if (!isSeen(colours.seen) || (!hasColour(samples) && isGrey(image))) return std::nullopt;
+  if (colours.seen.bands[0].pixels <= 0.0 || (!hasColour(samples) && isGrey(image))) return std::nullopt;
   return colours;
 }
 
@@ -167,19 +165,16 @@ double bhattacharyya(const RingColours& reference, const RingColours& seen) {
   return std::min(plain, distanceThroughHaze(reference.means, seen.means).value_or(plain));
 }
 
-RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part) {
-  RingHistogram result = from;
+RingColours blended(const RingColours& from, const RingColours& to, double part) {
+  RingColours result = from;
   const auto share = static_cast<float>(part);
   for (int b = 0; b < RingHistogram::kBands; ++b) {
-    if (from.bands[b].pixels == 0.0 || to.bands[b].pixels == 0.0) continue;
+    const RingHistogram::Band &before = from.seen.bands[b], &after = to.seen.bands[b];
+    if (before.pixels == 0.0 || after.pixels == 0.0) continue;
     for (int i = 0; i < RingHistogram::kCells; ++i)
-      result.bands[b].share[i] += share * (to.bands[b].share[i] - from.bands[b].share[i]);
+      result.seen.bands[b].share[i] += share * (after.share[i] - before.share[i]);
   }
   return result;
-}
-
-RingColours blended(const RingColours& from, const RingColours& to, double part) {
-  return {blended(from.seen, to.seen, part), from.means};
 }
 
 }  // namespace window_ingress::detection

@@ -9,16 +9,9 @@
 
 namespace window_ingress::detection {
 
-/// The ring round an opening, in two bands: its frame, and the surround. All widths in mean sides of the
-/// opening.
-struct RingWidths {
-  double near = 0.05;  ///< outer edge of the frame's band
-  double far = 0.14;   ///< outer edge of the surround's band
-};
-
 /// Colour of the ring round an opening: for each band a histogram of the chromaticities r = R / (R + G + B)
 /// and g, each pixel shared between the four bins round it. What is seen through the opening, and how bright
-/// things are, does not count (traps 11 and 12).
+/// things are, does not count.
 struct RingHistogram {
   static constexpr int kBands = 2;  ///< frame, surround
   static constexpr int kBins = 8, kCells = kBins * kBins;
@@ -53,7 +46,7 @@ struct RingColours {
 /// \param min_pixels a band with fewer is not seen
 /// \return nothing if the frame's band is not seen, or the whole image is grey
 std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
-                                       const RingWidths& widths, int min_pixels);
+                                       int min_pixels);
 
 /// Bhattacharyya distance of two rings, sqrt(1 - sum sqrt(p q)): 0 alike, 1 disjoint, bands weighted two to
 /// one. Two samples of n and m pixels of the same colours are not at distance 0: the expected sum falls short
@@ -64,8 +57,8 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 /// The smaller of the distances as seen and through haze.
 double bhattacharyya(const RingColours& reference, const RingColours& seen);
 
-/// Moves `from` towards `to`: 0 leaves it, 1 replaces it. Bands that either has not seen stay as they are.
-RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part);
+/// Moves the histogram of `from` towards that of `to`: 0 leaves it, 1 replaces it. Bands that either has not
+/// seen stay as they are, and so do the means.
 RingColours blended(const RingColours& from, const RingColours& to, double part);
 
 }  // namespace window_ingress::detection

@@ -115,8 +115,8 @@ void sampleBand(const cv::Mat& image, const MeasuredOpening& opening, double fro
 
 }  // namespace
 
-void sampleRing(const cv::Mat& image, const Quadrilateral& quad, double near_width, double far_width,
-                RingSamples& samples) {
+void sampleRing(const cv::Mat& image, const Quadrilateral& quad, RingSamples& samples) {
+  constexpr double kFrame = RingSamples::kFrameWidth, kSurround = RingSamples::kSurroundWidth;
   const MeasuredOpening opening(quad);
   DarkCounts dark;
   for (int i = 0; i < kGrid; ++i) {
@@ -124,9 +124,9 @@ void sampleRing(const cv::Mat& image, const Quadrilateral& quad, double near_wid
     forEachPixel(image, lineBetween(opening.map, {0, y}, {1, y}, kGrid),
                  [&](const cv::Vec3b& pixel) { dark.add(pixel); });
   }
-  const double clear = std::min(kClearPx / opening.mean, 0.5 * near_width);
-  sampleBand(image, opening, clear, near_width, samples.bands[0], dark);
-  sampleBand(image, opening, near_width, std::max(near_width, far_width), samples.bands[1], dark);
+  const double clear = std::min(kClearPx / opening.mean, 0.5 * kFrame);
+  sampleBand(image, opening, clear, kFrame, samples.bands[0], dark);
+  sampleBand(image, opening, kFrame, kSurround, samples.bands[1], dark);
   samples.darkest = dark.darkest();
 }
 

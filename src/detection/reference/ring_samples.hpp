@@ -7,9 +7,11 @@
 
 namespace window_ingress::detection {
 
-/// Pixels of the ring round an opening, on lines parallel to its sides in the plane of the window; at most
-/// one sample a pixel along a line.
+/// Pixels of the ring round an opening, in two bands, its frame and the surround, on lines parallel to its
+/// sides in the plane of the window; at most one sample a pixel along a line.
 struct RingSamples {
+  static constexpr double kFrameWidth = 0.05;     ///< outer edge of the frame's band [mean sides]
+  static constexpr double kSurroundWidth = 0.14;  ///< outer edge of the surround's band [mean sides]
   static constexpr int kBands = 2;
   static constexpr int kAlong = 16, kAcross = 2;  ///< most samples along a side, most lines in a band
   static constexpr int kMax = 4 * kAlong * kAcross;
@@ -26,9 +28,7 @@ struct RingSamples {
 
 /// \param image CV_8UC3, not empty
 /// \param opening convex and finite, canonical order
-/// \param near_width, far_width outer edges of the two bands, in mean sides of the opening
-void sampleRing(const cv::Mat& image, const geometry::Quadrilateral& opening, double near_width,
-                double far_width, RingSamples& samples);
+void sampleRing(const cv::Mat& image, const geometry::Quadrilateral& opening, RingSamples& samples);
 
 /// The line round an opening at this distance from its border, in mean sides of the opening; corners are not
 /// finite where the plane of the window is seen edge-on.

@@ -92,7 +92,7 @@ cv::Mat evening() { return window(cv::Scalar(75, 140, 205), cv::Scalar(60, 55, 5
 
 TEST(ReferenceAppearance, WholeImageCountsItsRimForTheFrame) {
   const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
-  const ReferenceAppearance rim(image(cv::Rect(93, 73, 134, 104)), 0.05);
+  const ReferenceAppearance rim(image(cv::Rect(93, 73, 134, 104)));
   const auto own = rim.compare(image, kOpening, {}),
              other = rim.compare(window(kBlue, cv::Scalar()), kOpening, {});
   ASSERT_TRUE(own && other);
