@@ -41,13 +41,17 @@ Vector3f features(const Vector3f& bgr) {
   return {(bgr[2] + 4.0F) / sum, (bgr[1] + 4.0F) / sum, std::log(sum)};
 }
 
+double difference(const Vector3f& a, const Vector3f& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1]) + kBrightnessWeight * std::min(1.0F, std::abs(a[2] - b[2]));
+}
+
 }  // namespace
 
 // The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
-                               const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
-  const ProfileReach reach{kBorderInward, kBorderOutward, aspect, effort.along, effort.across};
-  measureSides(image, ideal, lens, reach, sides_);
+                               const geometry::PinholeCamera* lens, const Effort& effort) {
+  measureSides(image, ideal, lens, {kBorderInward, kBorderOutward, aspect_, effort.along, effort.across},
+               sides_);
 }
 
 // Colours of the bands outwards from a border; false if the profile ends before the second.
@@ -97,9 +101,8 @@ double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const
 void ReferenceBorders::learn(const cv::Mat& image, const Quadrilateral& opening) {
   known_ = false;
   if (image.type() != CV_8UC3 || image.empty() || !geometry::isConvex(opening)) return;
-  const auto sides = geometry::sideLengths(opening);
-  aspect_ = (sides[0] + sides[2]) / (sides[1] + sides[3]);
-  measure(image, opening, nullptr, aspect_, kFine);
+  aspect_ = geometry::aspectRatio(opening);
+  measure(image, opening, nullptr, kFine);
   double frame = 0.0;
   for (int i = 0; i < 4; ++i) {
     if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;
@@ -111,10 +114,6 @@ void ReferenceBorders::learn(const cv::Mat& image, const Quadrilateral& opening)
   }
   frameless_ = frame < kFaintestFrame;
   known_ = true;
-}
-
-double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const {
-  return std::hypot(a[0] - b[0], a[1] - b[1]) + kBrightnessWeight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
 // How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
@@ -168,7 +167,7 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
   const geometry::PinholeCamera* lens = lensOf(camera);
   const Quadrilateral ideal = undistorted(rough, lens);
-  measure(image, ideal, lens, aspect_, effort);
+  measure(image, ideal, lens, effort);
   darkest_ = 255.0F;
   for (const SideProfile& side : sides_)
     for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());

@@ -51,12 +51,11 @@ class ReferenceBorders {
   using Bands = std::array<Eigen::Vector3f, kBands>;
 
   void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal,
-               const geometry::PinholeCamera* lens, double aspect, const Effort& effort);
+               const geometry::PinholeCamera* lens, const Effort& effort);
   static bool coloursFrom(const SideProfile& profile, double border, Bands& colours);
   static Bands featuresOf(const Bands& colours);
   double unlike(const Bands& colours, int side) const;
   double unlikeThroughHaze(const Bands& colours, int side) const;
-  double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;
 

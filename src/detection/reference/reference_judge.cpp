@@ -146,12 +146,7 @@ bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ &&
 bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                  std::vector<ScoredCandidate>& rivals) {
   if (!compares(image)) return false;
-  if (!borders_.known()) {
-    std::vector<ScoredCandidate> weighed = rivals;
-    if (!weigh(image, weighed)) return false;
-    rivals.swap(weighed);
-    return true;
-  }
+  if (!borders_.known()) return weigh(image, rivals);
   locateAll(inChannels(image), camera, rivals);
   weigh(image, located_);
   weighOthers(image, rivals);
@@ -276,12 +271,9 @@ bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrila
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
                                                      const geometry::PinholeCamera* camera) {
-  if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera))
-    return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
-  if (hasOwnFrame() || !knowsSurroundings(image))
-    if (const auto off = shape_.inFrame(image, fitted.corners, camera))
-      return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
-  return std::nullopt;
+  const auto fault = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera);
+  if (fault || (!hasOwnFrame() && knowsSurroundings(image))) return fault;
+  return shape_.inFrame(image, fitted.corners, camera);
 }
 
 }  // namespace window_ingress::detection

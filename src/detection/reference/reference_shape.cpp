@@ -99,21 +99,21 @@ Measured middleOf(std::vector<double>& values, double least_sigma) {
 
 // Chi of what must be 0, its covariance by the slopes: for small misfits what a fit of pose and aspect
 // leaves.
-std::optional<double> RectangleMisfit::of(const Quadrilateral& ideal,
-                                          const std::array<Matrix2d, 4>& covariance,
-                                          const PinholeCamera& camera) const {
+std::optional<double> rectangleMisfit(const Quadrilateral& ideal, const std::array<Matrix2d, 4>& covariance,
+                                      const PinholeCamera& camera, const OpeningAspect& aspect) {
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
-  const Vector2d off = offRectangle(ideal, camera, aspect);
-  Matrix2d spread = Vector2d(log_aspect_sigma * log_aspect_sigma, 0.0).asDiagonal();
+  const Vector2d off = offRectangle(ideal, camera, aspect.value);
+  Matrix2d spread = Vector2d(aspect.log_sigma * aspect.log_sigma, 0.0).asDiagonal();
   for (int i = 0; i < 4; ++i) {
     Matrix2d slopes;
     for (int k = 0; k < 2; ++k) {
       Quadrilateral less = ideal, more = ideal;
       less[i][k] -= kSlopePx, more[i][k] += kSlopePx;
-      slopes.col(k) =
-          (offRectangle(more, camera, aspect) - offRectangle(less, camera, aspect)) / (2.0 * kSlopePx);
+      slopes.col(k) = (offRectangle(more, camera, aspect.value) - offRectangle(less, camera, aspect.value)) /
+                      (2.0 * kSlopePx);
     }
-    spread += slopes * (covariance[i] + least_px * least_px * Matrix2d::Identity()) * slopes.transpose();
+    spread += slopes * (covariance[i] + kCornerSigmaPx * kCornerSigmaPx * Matrix2d::Identity()) *
+              slopes.transpose();
   }
   const double square = off.dot(spread.inverse() * off);
   if (!(square >= 0.0 && std::isfinite(square))) return std::nullopt;
@@ -144,23 +144,20 @@ std::optional<OpeningAspect> ReferenceShape::aspect() const {
   return OpeningAspect{aspect_->value, std::max(kAspectSigma, aspect_->sigma / aspect_->value)};
 }
 
-std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
-    const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance, const cv::Size& image,
-    const PinholeCamera* camera) const {
+std::optional<Rejection> ReferenceShape::inAspect(const Quadrilateral& corners,
+                                                  const std::array<Eigen::Matrix2d, 4>& covariance,
+                                                  const cv::Size& image, const PinholeCamera* camera) const {
   if (!aspect_) return std::nullopt;
   if (!camera) {
     double off = 1e9;
     for (double aspect : likelyAspects(corners, image))
       off = std::min(off, std::max(aspect / aspect_->value, aspect_->value / aspect));
-    return off > kMaxFactor ? std::optional(Difference{off, kMaxFactor}) : std::nullopt;
+    if (off <= kMaxFactor) return std::nullopt;
+    return Rejection{RejectReason::kOtherAspect, off, kMaxFactor};
   }
-  RectangleMisfit misfit;
-  misfit.aspect = aspect()->value;
-  misfit.log_aspect_sigma = aspect()->log_sigma;
-  misfit.least_px = kCornerSigmaPx;
-  const auto seen = misfit.of(undistorted(corners, lensOf(camera)), covariance, *camera);
+  const auto seen = rectangleMisfit(undistorted(corners, lensOf(camera)), covariance, *camera, *aspect());
   if (!seen || *seen <= kMaxSigmas) return std::nullopt;
-  return Difference{*seen, kMaxSigmas};
+  return Rejection{RejectReason::kOtherAspect, *seen, kMaxSigmas};
 }
 
 std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Quadrilateral& corners,
@@ -182,14 +179,13 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
   return middleOf(ratios_, kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
 }
 
-std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,
-                                                                  const Quadrilateral& corners,
-                                                                  const PinholeCamera* camera) {
+std::optional<Rejection> ReferenceShape::inFrame(const cv::Mat& image, const Quadrilateral& corners,
+                                                 const PinholeCamera* camera) {
   const auto seen = frameRatio(image, corners, camera);
   if (!seen) return std::nullopt;
   const double spread = kFrameSlack + kMaxSigmas * seen->sigma;
   if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
-  return Difference{seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};
+  return Rejection{RejectReason::kOtherFrame, seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};
 }
 
 }  // namespace window_ingress::detection

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "drawn_window.hpp"
@@ -69,14 +70,13 @@ ReferenceShape learned() {
 TEST(RectangleMisfit, IsChiOfTwoDegreesOfFreedomForTheRightAspect) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal(0.0, 0.4);
-  RectangleMisfit misfit;
-  misfit.aspect = 1.2, misfit.log_aspect_sigma = 0.001, misfit.least_px = 0.0;
+  const Covariances known = spread(std::sqrt(0.4 * 0.4 - 0.3 * 0.3));  // to which 0.3 px are added
   double squares = 0.0;
   const int trials = 200;
   for (int i = 0; i < trials; ++i) {
     Quadrilateral corners = randomView(random).opening();
     for (auto& corner : corners) corner += Eigen::Vector2d(normal(random), normal(random));
-    const auto left = misfit.of(corners, spread(0.4), camera());
+    const auto left = rectangleMisfit(corners, known, camera(), {1.2, 0.001});
     ASSERT_TRUE(left);
     EXPECT_LT(*left, 5.0);
     squares += *left * *left / trials;
@@ -86,23 +86,20 @@ TEST(RectangleMisfit, IsChiOfTwoDegreesOfFreedomForTheRightAspect) {
 
 TEST(RectangleMisfit, AnotherAspectDoesNotFit) {
   std::mt19937 random(5);
-  RectangleMisfit misfit;
-  misfit.aspect = 1.2, misfit.log_aspect_sigma = 0.03;
   for (int i = 0; i < 100; ++i) {
     View view = randomView(random);
     view.distance_m = std::min(view.distance_m, 6.0);
     view.width_m = i % 2 ? 0.7 : 1.8;
-    EXPECT_GT(*misfit.of(view.opening(), spread(0.3), camera()), 4.0) << i;
+    EXPECT_GT(*rectangleMisfit(view.opening(), spread(0.3), camera(), {1.2, 0.03}), 4.0) << i;
   }
 }
 
 TEST(RectangleMisfit, NothingFromWhatIsNoQuadrilateral) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  RectangleMisfit misfit;
-  misfit.log_aspect_sigma = 0.03;
-  EXPECT_FALSE(misfit.of(test::rectangle(nan, 0, 5, 5), spread(0.3), camera()));
-  EXPECT_FALSE(misfit.of(test::rectangle(7, 7, 7, 7), spread(0.3), camera()));
-  EXPECT_FALSE(misfit.of(View().opening(), spread(nan), camera()));
+  const OpeningAspect aspect{1.0, 0.03};
+  EXPECT_FALSE(rectangleMisfit(test::rectangle(nan, 0, 5, 5), spread(0.3), camera(), aspect));
+  EXPECT_FALSE(rectangleMisfit(test::rectangle(7, 7, 7, 7), spread(0.3), camera(), aspect));
+  EXPECT_FALSE(rectangleMisfit(View().opening(), spread(nan), camera(), aspect));
 }
 
 TEST(ReferenceShape, TheTargetIsOfItsShapeFromAnywhere) {
@@ -166,7 +163,7 @@ TEST(ReferenceShape, AFramelessReferenceAsksForNoFrame) {
   view.frame_m = 0.0;
   ReferenceShape shape;
   shape.learn(view.draw(), view.opening());
-  EXPECT_FALSE(shape.frameRatio(View().draw(), View().opening(), nullptr));
+  EXPECT_FALSE(shape.inFrame(View().draw(), View().opening(), nullptr));
 }
 
 TEST(ReferenceShape, NothingToldWithoutAReferenceOrSense) {
