@@ -26,8 +26,7 @@ struct RefinedBorders {
   std::array<Edge, 4> edges;
   std::array<bool, 4> fitted = {};  ///< false: the side lies where it was known to lie, without its border
   std::array<SideSigma, 4> known;   ///< without their borders, as the start said
-  int seen = 4;                     ///< sides at which there is a border, see `max_stray_px`
-  double worst_inliers = 0.0;       ///< part of the profiles on the line, of the worst side
+  int seen = 0;                     ///< sides at which there is a border, see `max_stray_px`
 };
 
 /// Where a fit starts and what it may take.

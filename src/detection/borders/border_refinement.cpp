@@ -133,16 +133,16 @@ class Side {
 
   // A start that was located may be turned itself: a line that nearly all of the side shows may be, too.
   double reachOf(double radius_px) const {
-    return located() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
+    return known_.known() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
   }
-  bool located() const { return known_.known(); }
 
   // A start that was located says where the front edge is, any other one but what is beside it.
   void toFront() {
     const double from = border_.line.at(border_.middle());
     const double near = kFrontWithinPx, wide = kLocatedWithinPx;
     memory_.fit.toFront(
-        located() ? TwoStepEdgeLimits{-wide - from, wide - from} : TwoStepEdgeLimits{-near, near}, border_);
+        known_.known() ? TwoStepEdgeLimits{-wide - from, wide - from} : TwoStepEdgeLimits{-near, near},
+        border_);
   }
 
   // How far an end of the fitted line is from the start.
@@ -152,9 +152,8 @@ class Side {
   }
 
   bool fit(const SubpixelBorderLimits& limits) {
-    SubpixelBorderLimits all = limits;
     inliers_ = 0.0;
-    if (!memory_.fit.run(all, border_)) return false;
+    if (!memory_.fit.run(limits, border_)) return false;
     inliers_ = static_cast<double>(border_.inliers) / count_;
     return inliers_ >= BorderRefinement::kMinInliers;
   }
@@ -175,12 +174,12 @@ void startAtTopLeft(RefinedBorders& borders) {
   const auto first = std::min_element(borders.corners.begin(), borders.corners.end(),
                                       [](const Vector2d& a, const Vector2d& b) { return a.sum() < b.sum(); });
   const auto shift = first - borders.corners.begin();
-  std::rotate(borders.corners.begin(), borders.corners.begin() + shift, borders.corners.end());
-  std::rotate(borders.corner_covariance.begin(), borders.corner_covariance.begin() + shift,
-              borders.corner_covariance.end());
-  std::rotate(borders.edges.begin(), borders.edges.begin() + shift, borders.edges.end());
-  std::rotate(borders.fitted.begin(), borders.fitted.begin() + shift, borders.fitted.end());
-  std::rotate(borders.known.begin(), borders.known.begin() + shift, borders.known.end());
+  const auto rotate = [shift](auto& of) { std::rotate(of.begin(), of.begin() + shift, of.end()); };
+  rotate(borders.corners);
+  rotate(borders.corner_covariance);
+  rotate(borders.edges);
+  rotate(borders.fitted);
+  rotate(borders.known);
 }
 
 // Corners of the image as it came from the borders; false if they are no window.
@@ -219,8 +218,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   const geometry::PinholeCamera* lens = lensOf(camera);
   std::array<Line, 4> lines;
   RefinedBorders borders;
-  borders.worst_inliers = 1.0;
-  borders.seen = 0;
+  double worst = 1.0;
   borders.known = start.known;
   bool good = true;
   for (int i = 0; i < 4 && good; ++i) {
@@ -232,14 +230,14 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     Side side(*memory_, limits, start, i);
     good = side.run(image, lens, a, b) || start.known[i].known();
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
-    borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
+    worst = std::min(worst, side.inliers());
     borders.seen += side.seen();
     borders.fitted[i] = side.fitted();
     lines[i] = side.fitted() ? side.line() : side.start();
     const auto [begin, end] = side.ends();
     borders.edges[i] = edgeThroughLens(lines[i], begin, end, lens);
   }
-  if (worst_inliers) *worst_inliers = borders.worst_inliers;
+  if (worst_inliers) *worst_inliers = worst;
   if (!good || !finish(lines, lens, borders)) return std::nullopt;
   return borders;
 }

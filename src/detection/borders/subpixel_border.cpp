@@ -12,6 +12,7 @@ namespace {
 constexpr float kFaintest = 0.5f;        // slope that may be an edge [grey levels a pixel]
 constexpr float kFaintestChange = 3.0f;  // of the mean colour over two pixels, likewise [grey levels]
 constexpr int kMinProfiles = 4;
+constexpr double kSigmaFloorPx = 0.03;  // no border is claimed to be known better than this
 constexpr int kNoPeak = 1 << 20;
 constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
@@ -131,8 +132,7 @@ void SubpixelBorder::spread(const SubpixelBorderLimits& limits, FittedBorder& bo
   }
   const double spacing_px = profiles_->length() / profiles_->count();
   const double independent = std::max(2.0, border.inliers * std::min(1.0, spacing_px / kCorrelationPx) - 2.0);
-  border.sigma_px =
-      std::hypot(limits.sigma_floor_px, std::sqrt(squares / std::max(1, border.inliers) / independent));
+  border.sigma_px = std::hypot(kSigmaFloorPx, std::sqrt(squares / std::max(1, border.inliers) / independent));
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 

@@ -27,10 +27,9 @@ struct FittedBorder {
 
 /// What a fit may take for the border.
 struct SubpixelBorderLimits {
-  double radius_px = 2.0;        ///< reach across the line it is looked for at [px]
-  double prior_px = 1e3;         ///< scale of the preference for edges near that line [px]
-  double outlier_px = 0.6;       ///< scale of the robust fit [px]
-  double sigma_floor_px = 0.03;  ///< no border is claimed to be known better than this [px]
+  double radius_px = 2.0;   ///< reach across the line it is looked for at [px]
+  double prior_px = 1e3;    ///< scale of the preference for edges near that line [px]
+  double outlier_px = 0.6;  ///< scale of the robust fit [px]
 };
 
 /// Sub-pixel position of one border: in each profile the steepest change of the wanted colour near a line, to
