@@ -31,37 +31,38 @@ double worstAngle(const geometry::Quadrilateral& quad) {
 
 }  // namespace
 
-std::optional<Rejection> CandidateGates::shape(const Candidate& candidate, const cv::Size& image) const {
+std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& image,
+                                    const CandidateGatesParams& params) {
   if (!geometry::isFinite(candidate.quad) || !geometry::isConvex(candidate.quad))
     return Rejection{RejectReason::kCorners, 0.0, 4.0};
   const double area = std::abs(geometry::signedArea(candidate.quad)) / image.area();
-  if (area < params_.min_area) return Rejection{RejectReason::kAreaSmall, area, params_.min_area};
-  if (area > params_.max_area) return Rejection{RejectReason::kAreaLarge, area, params_.max_area};
+  if (area < params.min_area) return Rejection{RejectReason::kAreaSmall, area, params.min_area};
+  if (area > params.max_area) return Rejection{RejectReason::kAreaLarge, area, params.max_area};
   const double aspect = geometry::aspectRatio(candidate.quad);
-  if (aspect < params_.min_aspect) return Rejection{RejectReason::kAspect, aspect, params_.min_aspect};
-  if (aspect > params_.max_aspect) return Rejection{RejectReason::kAspect, aspect, params_.max_aspect};
+  if (aspect < params.min_aspect) return Rejection{RejectReason::kAspect, aspect, params.min_aspect};
+  if (aspect > params.max_aspect) return Rejection{RejectReason::kAspect, aspect, params.max_aspect};
   if (candidate.solidity < kMinSolidity)
     return Rejection{RejectReason::kSolidity, candidate.solidity, kMinSolidity};
   const double angle = worstAngle(candidate.quad);
-  if (angle > params_.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params_.max_angle_rad};
+  if (angle > params.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params.max_angle_rad};
   const double margin = distanceToBorder(candidate.seen, image);
   const double limit = kBorderPart * std::max(image.width, image.height);
   if (margin < limit) return Rejection{RejectReason::kBorder, margin, limit};
   return std::nullopt;
 }
 
-std::optional<Rejection> CandidateGates::support(const Candidate& candidate) const {
+std::optional<Rejection> supportFault(const Candidate& candidate, const CandidateGatesParams& params) {
   double least = 1.0, sum = 0.0, contrast = 255.0;
   for (const SideSupport& side : candidate.sides) {
     least = std::min(least, side.fraction);
     sum += side.fraction;
     contrast = std::min(contrast, side.contrast);
   }
-  if (least < params_.min_side_support)
-    return Rejection{RejectReason::kLineSupport, least, params_.min_side_support};
+  if (least < params.min_side_support)
+    return Rejection{RejectReason::kLineSupport, least, params.min_side_support};
   if (sum / 4.0 < kMeanSideSupport) return Rejection{RejectReason::kLineSupport, sum / 4.0, kMeanSideSupport};
-  if (contrast < params_.min_contrast)
-    return Rejection{RejectReason::kContrast, contrast, params_.min_contrast};
+  if (contrast < params.min_contrast)
+    return Rejection{RejectReason::kContrast, contrast, params.min_contrast};
   return std::nullopt;
 }
 

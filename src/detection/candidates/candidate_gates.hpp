@@ -15,20 +15,13 @@ struct Rejection {
   double limit = 0.0;
 };
 
-/// The paper's conditions on a candidate (P8), each a gate with a name.
-class CandidateGates {
- public:
-  explicit CandidateGates(const CandidateGatesParams& params) : params_(params) {}
+/// The paper's conditions on a candidate (P8), each a gate with a name. Those on the shape alone: corners,
+/// area, aspect ratio, solidity, angles, border.
+std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& image,
+                                    const CandidateGatesParams& params);
 
-  /// Gates on the shape alone: corners, area, aspect ratio, solidity, angles, border.
-  std::optional<Rejection> shape(const Candidate& candidate, const cv::Size& image) const;
-
-  /// Gates on what the edge map says of its sides: line support, contrast.
-  std::optional<Rejection> support(const Candidate& candidate) const;
-
- private:
-  CandidateGatesParams params_;
-};
+/// Those on what the edge map says of its sides: line support, contrast.
+std::optional<Rejection> supportFault(const Candidate& candidate, const CandidateGatesParams& params);
 
 /// How much a candidate is like a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of the
 /// support of its sides, the weakest counting most, and how well they end at their corners. It does not

@@ -38,8 +38,7 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
       hough_(params.lines),
       dilation_(params.closing),
       contours_(params.contours),
-      segment_quads_(params.segment_quads),
-      gates_(params.gates) {}
+      segment_quads_(params.segment_quads) {}
 
 const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
                                                          const geometry::PinholeCamera* camera,
@@ -123,7 +122,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::open() {
     rival.candidate.quad = quad;
     rival.candidate.source = CandidateSource::kSegments;
     for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = undistortion_.distort(quad[i]);
-    if (gates_.shape(rival.candidate, level_size_)) continue;
+    if (shapeFault(rival.candidate, level_size_, params_.gates)) continue;
     rival.quad = inFullImage(rival.candidate.seen, factor_);
     rival.score = kOpenScore;
     open_.push_back(rival);
@@ -137,10 +136,10 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     rival.candidate = one;
     Candidate& candidate = rival.candidate;
     for (int i = 0; i < 4; ++i) candidate.seen[i] = undistortion_.distort(candidate.quad[i]);
-    auto rejection = gates_.shape(candidate, level_size_);
+    auto rejection = shapeFault(candidate, level_size_, params_.gates);
     if (!rejection) {
       addEdges(measureSides(*map_, undistortion_, candidate.quad), candidate.sides);
-      rejection = gates_.support(candidate);
+      rejection = supportFault(candidate, params_.gates);
     }
     rival.quad = inFullImage(candidate.seen, factor_);
     if (rejection) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "detection/candidates/candidate.hpp"
-#include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/edge_chains.hpp"
@@ -69,7 +68,6 @@ class CandidateSearch {
   EdgeDilation dilation_;
   ContourPolygons contours_;
   SegmentQuads segment_quads_;
-  CandidateGates gates_;
   const EdgeMap* map_ = nullptr;
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;

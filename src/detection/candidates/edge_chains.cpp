@@ -11,6 +11,7 @@ using Eigen::Vector2d;
 
 constexpr double kMaxTurn_rad =
     0.7;  ///< a pixel follows another if their gradients differ less than this [rad]
+const float kMinSquareCosine = static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2));
 constexpr double kStraightPx =
     0.9;                       ///< a run leaves its chord by less than this, at a level side of 320 [px]
 constexpr double kBow = 0.02;  ///< a run leaves its chord by this part of it besides: lenses bend
@@ -43,8 +44,6 @@ Vector2d LineMoments::along() const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-EdgeChains::EdgeChains() : min_square_cosine_(static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2))) {}
-
 // The free neighbour that goes on in the direction of the edge, the straightest first.
 bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
   const int ahead = stepTowards(-sense * at.dy, sense * at.dx);
@@ -57,7 +56,7 @@ bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
     const float dot = static_cast<float>(dx * at.dx + dy * at.dy);
     const float squares =
         static_cast<float>(dx * dx + dy * dy) * static_cast<float>(at.dx * at.dx + at.dy * at.dy);
-    if (dot <= 0.0F || dot * dot < min_square_cosine_ * squares) continue;
+    if (dot <= 0.0F || dot * dot < kMinSquareCosine * squares) continue;
     free = 0;
     at = {static_cast<short>(x), static_cast<short>(y), dx, dy};
     return true;

@@ -33,8 +33,6 @@ struct EdgeChain {
 /// is looked at once. The runs are what the Hough transform votes with.
 class EdgeChains {
  public:
-  EdgeChains();
-
   /// In the order of the image, from top to bottom. Valid until the next call.
   const std::vector<EdgeChain>& run(const EdgeMap& map, const UndistortionMap& lens);
 
@@ -54,7 +52,6 @@ class EdgeChains {
   void cut(const UndistortionMap& lens);
   void emit(std::size_t first, std::size_t last);
 
-  float min_square_cosine_;
   cv::Mat free_;  ///< CV_8UC1, edge pixels that belong to no chain yet
   std::vector<Pixel> forward_, backward_;
   std::vector<Eigen::Vector2d> points_;

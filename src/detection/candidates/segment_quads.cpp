@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMeanCoverage = 0.65;  ///< least mean coverage of the four sides
-constexpr double kMinAngle_rad = 0.6;   ///< between neighbouring sides [rad]
+constexpr double kMeanCoverage = 0.65;        ///< least mean coverage of the four sides
+const double kMinCornerSine = std::sin(0.6);  ///< of the angle between neighbouring sides
 constexpr double kOddSide =
     0.95;  ///< factor for each side that is brighter inside where most are darker, or so
 constexpr double kSlackPx = 3.0;
@@ -58,7 +58,7 @@ int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& c
 // Where two lines meet, if both segments come near enough.
 bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const {
   const double sine = cross(p.way, q.way);
-  if (std::abs(sine) < min_sine_ * p.length * q.length) return false;
+  if (std::abs(sine) < kMinCornerSine * p.length * q.length) return false;
   const Vector2d d = q.start - p.start;
   const double t_p = cross(d, q.way) / sine;
   if (std::abs(t_p - 0.5) > p.reach) return false;
@@ -262,7 +262,6 @@ const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segmen
   combinations_ = 0;
   min_area_px_ = min_area_px;
   tolerance_ = -std::log(effort.min_closure);
-  min_sine_ = std::sin(kMinAngle_rad);
   connect(segments);
   for (int i = 0; i < count_; ++i)
     for (int side : {kLeft, kRight}) combineFrom(segments, i, side);

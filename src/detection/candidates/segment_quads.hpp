@@ -94,7 +94,7 @@ class SegmentQuads {
   SegmentQuadsParams params_;
   Effort effort_ = kQuick;
   int count_ = 0, words_ = 0, combinations_ = 0;
-  double min_area_px_ = 0.0, min_sine_ = 0.0, tolerance_ = 0.0;
+  double min_area_px_ = 0.0, tolerance_ = 0.0;
   std::vector<Side> sides_;
   std::vector<std::vector<Junction>> junctions_;
   std::vector<std::uint64_t>

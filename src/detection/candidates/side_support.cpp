@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kTolerancePx = 2.0;  ///< distance of an edge pixel from the side, on the search level [px]
-constexpr double kDirection_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
+constexpr int kReachPx = 2;  ///< distance of an edge pixel from the side, on the search level [px]
+const double kDirection = std::cos(0.35);  ///< cosine of the angle between its gradient and the side's normal
 constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
 constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
 
@@ -35,9 +35,8 @@ struct Hit {
 
 /// The question that is asked at many points along one line.
 struct Probe {
-  Vector2d outward;      ///< unit vector across the line
-  double square_cosine;  ///< of the largest angle between it and a gradient
-  int reach;             ///< how far beside the line [px]
+  Vector2d outward;  ///< unit vector across the line
+  int reach;         ///< how far beside the line [px]
 };
 
 // Looks at one pixel; worth 0 if there is no edge of this direction.
@@ -49,7 +48,7 @@ inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) 
     return {};
   const Vector2d gradient(map.dx.ptr<short>(y)[x], map.dy.ptr<short>(y)[x]);
   const double along = gradient.dot(probe.outward);
-  if (along * along < probe.square_cosine * gradient.squaredNorm()) return {};
+  if (along * along < kDirection * kDirection * gradient.squaredNorm()) return {};
   return {1.0, along / EdgeMap::kSobelGain};
 }
 
@@ -68,8 +67,8 @@ Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
 // Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way`
 // (unit vector); weaker ones, as the joints of a wall that run along a border, count in squares.
 double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
-                 double square_cosine, double contrast) {
-  const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
+                 double contrast) {
+  const Probe probe = {{way.y(), -way.x()}, 1};
   const int samples = std::clamp(static_cast<int>(stretch_px), 4, 6);
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
@@ -85,9 +84,7 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   const Vector2d along = b - a;
   const double length = along.norm();
   if (length < 1.0) return support;
-  const double cosine = std::cos(kDirection_rad), square_cosine = cosine * cosine;
-  const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
-                       static_cast<int>(std::lround(kTolerancePx))};
+  const Probe probe = {Vector2d(along.y(), -along.x()) / length, kReachPx};
   const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * kSkip)), 4, 16);
   int hits = 0;
   double strength = 0.0, worth = 0.0;
@@ -102,9 +99,8 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
   const double stretch_px = std::max(4.0, kBeyond * length);
-  support.overshoot =
-      0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
-             overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
+  support.overshoot = 0.5 * (overshoot(level, a, -along / length, stretch_px, support.contrast) +
+                             overshoot(level, b, along / length, stretch_px, support.contrast));
   return support;
 }
 

@@ -19,15 +19,14 @@ Candidate good() {
 }
 
 void expectShape(const Candidate& candidate, RejectReason reason) {
-  const auto rejection = CandidateGates(CandidateGatesParams()).shape(candidate, kImage);
+  const auto rejection = shapeFault(candidate, kImage, {});
   ASSERT_TRUE(rejection) << toString(reason);
   EXPECT_EQ(rejection->reason, reason) << toString(rejection->reason);
 }
 
 TEST(CandidateGates, AGoodCandidatePasses) {
-  const CandidateGates gates{CandidateGatesParams()};
-  EXPECT_FALSE(gates.shape(good(), kImage));
-  EXPECT_FALSE(gates.support(good()));
+  EXPECT_FALSE(shapeFault(good(), kImage, {}));
+  EXPECT_FALSE(supportFault(good(), {}));
 }
 
 TEST(CandidateGates, EachShapeGateNamesItself) {
@@ -55,21 +54,19 @@ TEST(CandidateGates, EachShapeGateNamesItself) {
 }
 
 TEST(CandidateGates, SupportGatesNameThemselvesAndTheirMargin) {
-  const CandidateGates gates{CandidateGatesParams()};
   Candidate c = good();
   c.sides[2].fraction = 0.2;
-  EXPECT_EQ(gates.support(c)->reason, RejectReason::kLineSupport);
-  EXPECT_DOUBLE_EQ(gates.support(c)->value, 0.2);
+  EXPECT_EQ(supportFault(c, {})->reason, RejectReason::kLineSupport);
+  EXPECT_DOUBLE_EQ(supportFault(c, {})->value, 0.2);
   for (SideSupport& side : c.sides) side.fraction = 0.55;
-  EXPECT_EQ(gates.support(c)->reason, RejectReason::kLineSupport);
-  EXPECT_DOUBLE_EQ(gates.support(c)->limit, 0.7);
+  EXPECT_EQ(supportFault(c, {})->reason, RejectReason::kLineSupport);
+  EXPECT_DOUBLE_EQ(supportFault(c, {})->limit, 0.7);
   c = good();
   c.sides[1].contrast = 0.5;
-  EXPECT_EQ(gates.support(c)->reason, RejectReason::kContrast);
+  EXPECT_EQ(supportFault(c, {})->reason, RejectReason::kContrast);
 }
 
 TEST(CandidateGates, TheSameForMirroredAndScaledCandidates) {
-  const CandidateGates gates{CandidateGatesParams()};
   std::mt19937 random(4);
   std::uniform_real_distribution<double> x(-20, 340), y(-20, 260);
   for (int i = 0; i < 2000; ++i) {
@@ -82,8 +79,8 @@ TEST(CandidateGates, TheSameForMirroredAndScaledCandidates) {
     for (int k = 0; k < 4; ++k) mirrored.quad[k].x() = kImage.width - 1 - c.quad[k].x();
     mirrored.quad = *geometry::canonical(mirrored.quad);
     for (int k = 0; k < 4; ++k) doubled.quad[k] = 2.0 * c.quad[k] + Eigen::Vector2d(0.5, 0.5);
-    const auto here = gates.shape(c, kImage), there = gates.shape(mirrored, kImage);
-    const auto twice = gates.shape(doubled, cv::Size(640, 480));
+    const auto here = shapeFault(c, kImage, {}), there = shapeFault(mirrored, kImage, {});
+    const auto twice = shapeFault(doubled, cv::Size(640, 480), {});
     const auto reason = [](const auto& r) { return r ? r->reason : RejectReason::kNone; };
     if (reason(here) != RejectReason::kAspect && reason(there) != RejectReason::kAspect) {
       EXPECT_EQ(reason(here), reason(there));
