@@ -41,7 +41,7 @@ struct Probe {
 
 // Looks at one pixel; worth 0 if there is no edge of this direction.
 inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) {
-  const Vector2d p = level.lens.bends() ? level.lens.distort(ideal) : ideal;
+  const Vector2d p = level.lens.distort(ideal);
   const EdgeMap& map = level.map;
   const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
   if (p.x() < 0.0 || p.y() < 0.0 || x >= map.edges.cols || y >= map.edges.rows || !map.edges.ptr(y)[x])

@@ -37,12 +37,4 @@ void UndistortionMap::set(const geometry::PinholeCamera* camera, const cv::Size&
     }
 }
 
-Eigen::Vector2d UndistortionMap::undistort(const Eigen::Vector2d& level_px) const {
-  return camera_ ? camera_->undistort(level_px) : level_px;
-}
-
-Eigen::Vector2d UndistortionMap::distort(const Eigen::Vector2d& ideal_level_px) const {
-  return camera_ ? camera_->distort(ideal_level_px) : ideal_level_px;
-}
-
 }  // namespace window_ingress::detection

@@ -20,9 +20,12 @@ class UndistortionMap {
     const cv::Vec2f& p = table_.ptr<cv::Vec2f>(y)[x];
     return {p[0], p[1]};
   }
-  Eigen::Vector2d undistort(const Eigen::Vector2d& level_px) const;
-  Eigen::Vector2d distort(const Eigen::Vector2d& ideal_level_px) const;
-  bool bends() const { return !table_.empty(); }
+  Eigen::Vector2d undistort(const Eigen::Vector2d& level_px) const {
+    return camera_ ? camera_->undistort(level_px) : level_px;
+  }
+  Eigen::Vector2d distort(const Eigen::Vector2d& ideal_level_px) const {
+    return camera_ ? camera_->distort(ideal_level_px) : ideal_level_px;
+  }
 
  private:
   std::optional<geometry::PinholeCamera> camera_;  ///< of the level; nothing if it does not bend
