@@ -160,6 +160,12 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
   return window;
 }
 
+void TargetChoice::takeBack() {
+  CandidateTrace& chosen = trace_.candidates[static_cast<std::size_t>(trace_.target)];
+  chosen.reject = RejectReason::kUnlike, chosen.value = 0.0, chosen.limit = params_.min_correlation;
+  trace_.target = -1;
+}
+
 WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
                                 double stamp_sec) {
   WindowObservation window;

@@ -35,6 +35,10 @@ class TargetChoice {
   /// where that does not fit.
   double ringThere() const { return ring_there_; }
 
+  /// The window that was chosen last is not the target: nothing like what lies round the reference's opening
+  /// lies round it.
+  void takeBack();
+
   /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
   /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;

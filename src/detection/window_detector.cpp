@@ -102,7 +102,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
   if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
   if (!reference.knowsSurroundings(view.image)) return window;
   const double agreement = window ? choice.ringThere() : 0.0;
-  if (agreement == 0.0) window.reset();
+  if (window && agreement == 0.0) choice.takeBack(), window.reset();
   const auto ask_surroundings = [&] {
     const auto other = judgeSurroundings(view);
     if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
@@ -117,10 +117,12 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
 std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& view) {
   gatherAll();
   if (everywhere) rivals.insert(rivals.end(), everywhere->begin(), everywhere->end());
-  reference.setCovered(true);
-  const auto window = judgeSurroundings(view);
-  reference.setCovered(false);
-  return window;
+  const struct Cover {
+    explicit Cover(ReferenceJudge& judge) : judge(judge) { judge.setCovered(true); }
+    ~Cover() { judge.setCovered(false); }
+    ReferenceJudge& judge;
+  } cover(reference);
+  return judgeSurroundings(view);
 }
 
 // What has the paint of the reference's frame and another shape has been seen and refused: to look for that

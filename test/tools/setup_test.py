@@ -76,12 +76,18 @@ def test_names_what_the_system_does_not_have_and_installs_nothing(setup):
 
 
 def test_an_option_is_none_of_apt(setup):
-    for option in ("--help", "--reinstall"):
-        done, installed = setup(system("debian", "12"), option)
-        assert done.returncode == 2 and not installed and "scripts/setup [MORE PACKAGES...]" in done.stderr
+    done, installed = setup(system("debian", "12"), "--reinstall")
+    assert done.returncode == 2 and not installed and "scripts/setup [MORE PACKAGES...]" in done.stderr
 
 
-@pytest.mark.parametrize("script, arguments", [("test", ["--help"]), ("test", ["pose"]), ("run", ["--help"]), ("run", [])])
+@pytest.mark.parametrize("option", ["-h", "--help"])
+@pytest.mark.parametrize("script", ["setup", "build", "run", "test", "bench", "demo"])
+def test_who_asks_a_script_for_help_gets_it(script, option):
+    done = call(SETUP.parent / script, option)
+    assert done.returncode == 0 and not done.stderr and f"scripts/{script}" in done.stdout
+
+
+@pytest.mark.parametrize("script, arguments", [("build", ["--test"]), ("bench", ["fast"]), ("demo", ["5"]), ("test", ["pose"]), ("run", ["--x"]), ("run", [])])
 def test_a_script_that_takes_no_such_argument_says_so_and_does_nothing(script, arguments):
     done = call(SETUP.parent / script, *arguments)
     assert done.returncode == 2 and not done.stdout and f"scripts/{script}" in done.stderr
@@ -114,6 +120,7 @@ def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
 
 @pytest.mark.parametrize("command, said", [
     (["run", "roslaunch", "window_ingress", "sim.launch"], "run: no nodes of window_ingress; is the package built? (scripts/build)\n"),
+    (["run", "roslaunch9", "window_ingress", "sim.launch"], "run: no 'roslaunch9' here; ./scripts/setup installs ROS\n"),
     (["run", "fly"], "run: no tool, node or command 'fly'; is the package built? (scripts/build)\n")])
 def test_who_comes_too_early_is_told_what_comes_before(tmp_path, command, said):
     shutil.copytree(SETUP.parent, tmp_path / "scripts")

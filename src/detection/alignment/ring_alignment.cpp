@@ -265,6 +265,7 @@ std::optional<AlignedRing> RingAlignment::uncovered(const Quadrilateral& quad, d
   found.match = refine(scale, ideal, map, kLastSteps);
   found.sides = sidesOf(map);
   hidden_.reset();
+  if (found.match.correlation < kMinCorrelation) return std::nullopt;
   const double sigma_px = start->sigma_px;
   found.sides[*found.hidden] = {sigma_px, sigma_px * std::sqrt(12.0) / side_px};
   if (!cornersOf(map, found.quad)) return std::nullopt;

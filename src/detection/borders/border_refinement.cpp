@@ -59,7 +59,8 @@ class Side {
     if (shows_edge_ || is_hidden_) return;
     border_ = FittedBorder();
     const bool found = run(image, lens, a, b, kWider * reach());
-    fitted_ = found && inliers_ > kMaxInliers;
+    seen_ = seen_ && inliers_ > kMaxInliers;
+    fitted_ = found && seen_;
   }
   bool fitted() const { return fitted_; }
   bool seen() const { return seen_; }

@@ -18,6 +18,7 @@ constexpr int kTiles = 6;              ///< of the equalisation, each way
 
 constexpr double kSigmaPx = 1.0;         ///< of the smoothing: differences between channels are noisy
 constexpr double kMeanOver = 1.0 / 3.0;  ///< side of the square of the mean, in longer sides of the level
+constexpr int kMinSidePx = 16;           ///< of a level; a strip is searched as large as it is
 
 }  // namespace
 
@@ -26,6 +27,7 @@ SearchLevel Preprocess::run(const cv::Mat& image) {
   cv::Mat current = image;
   for (int i = 0; std::max(current.cols, current.rows) > params_.search_side_px; i ^= 1) {
     const cv::Size half(current.cols / 2, current.rows / 2);
+    if (std::min(half.width, half.height) < kMinSidePx) break;
     cv::resize(current(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[i], half, 0, 0,
                cv::INTER_AREA);
     current = levels_[i];

@@ -185,7 +185,7 @@ void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera*
                {border.from, border.to, count, kSkip, static_cast<int>(std::ceil(radius_px)) + 4});
   FittedBorder edge;
   const double outlier_px = kRoughPx * scaleOf(image);
-  if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run({radius_px, kPriorPx, outlier_px}, edge) ||
+  if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run({radius_px, kPriorPx * scaleOf(image), outlier_px}, edge) ||
       edge.inliers < kMinInliers * count || std::abs(edge.line.offset) < kSameApartPx)
     return learn(image, lens, border, size_px);
   learn(image, lens, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))},

@@ -23,6 +23,14 @@ TEST(Preprocess, ReducesByPowersOfTwoUntilItFits) {
   }
 }
 
+TEST(Preprocess, AStripIsNotReducedToNothing) {
+  Preprocess preprocess{PreprocessParams()};
+  for (const cv::Size size : {cv::Size(8000, 16), cv::Size(16, 16000), cv::Size(5000, 40)})
+    EXPECT_GE(std::min(preprocess.run(cv::Mat(size, CV_8UC3)).image.cols,
+                       preprocess.run(cv::Mat(size, CV_8UC3)).image.rows),
+              16);
+}
+
 TEST(Preprocess, APixelOfTheLevelIsTheMeanOfThoseUnderIt) {
   cv::Mat image(480, 640, CV_8UC1, cv::Scalar(0));
   cv::circle(image, {200, 300}, 6, cv::Scalar(255), cv::FILLED);
