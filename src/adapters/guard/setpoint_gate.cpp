@@ -22,11 +22,6 @@ std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& para
   return "";
 }
 
-GatedTwist gated(const geometry_msgs::Twist& twist, const GuardParams& params) {
-  const std::string fault = whyUnsafe(twist, params);
-  return {fault.empty() ? twist : geometry_msgs::Twist(), fault};
-}
-
 void SetpointGate::receive(const geometry_msgs::Twist& twist, double now_sec) {
   input_ = twist;
   received_sec_ = now_sec;

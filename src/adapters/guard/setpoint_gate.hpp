@@ -15,13 +15,6 @@ using configuration::GuardParams;
 /// Why this velocity must not reach the autopilot; empty if it may.
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params);
 
-/// The same velocity if it is safe, else zero, and why.
-struct GatedTwist {
-  geometry_msgs::Twist twist;
-  std::string fault;  ///< empty if it was let through
-};
-GatedTwist gated(const geometry_msgs::Twist& twist, const GuardParams& params);
-
 /// What the last gate lets through: the input while it is recent and sane, zero in every other case, and
 /// nothing at all once sane input has been missing for too long. No clock: times are seconds of the steady
 /// one.

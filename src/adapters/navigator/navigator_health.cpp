@@ -68,8 +68,8 @@ Health NavigatorNode::cameraHealth() const {
 }
 
 Health NavigatorNode::lastGateHealth() const {
-  if (gate_fault_.empty()) return {};
-  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + gate_fault_};
+  if (last_gate_.fault().empty()) return {};
+  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + last_gate_.fault()};
 }
 
 }  // namespace window_ingress::adapters

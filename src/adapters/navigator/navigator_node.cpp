@@ -212,9 +212,9 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
   geometry_msgs::TwistStamped message =
       toTwistMsg(directionless ? navigation::Setpoint() : setpoint, frames(), R_odom_base);
   message.header.stamp = now;
-  const GatedTwist passed = gated(message.twist, last_gate_);
-  message.twist = passed.twist;
-  gate_fault_ = passed.fault;
+  const double now_sec = steadyNowSec();
+  last_gate_.receive(message.twist, now_sec);
+  message.twist = last_gate_.output(now_sec).value_or(geometry_msgs::Twist());
   setpoint_publisher_.publish(message);
   guard_.sent();
 }

@@ -95,8 +95,7 @@ class NavigatorNode : public Node {
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false, is_disabled_ = false;
-  GuardParams last_gate_;
-  std::string gate_fault_;  // of the setpoint last sent
+  SetpointGate last_gate_;  // asked at once: nothing is ever late there
   std::string refused_;     // the last refusal
   std::optional<Lockstep> lockstep_;
   ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not

@@ -96,15 +96,17 @@ bool isZero(const geometry_msgs::Twist& t) {
 // Each number of the setpoint is forced to be none, before the limiter and behind it.
 TEST(Fault, M66_SetpointsThatAreNone) {
   const GuardParams params;
-  EXPECT_EQ(gated(mutated(0, 0.4), params).fault, "");
-  EXPECT_EQ(gated(mutated(0, 0.4), params).twist.linear.x, 0.4);
+  SetpointGate gate(params);
+  gate.receive(mutated(0, 0.4), 0.0);
+  EXPECT_EQ(gate.fault(), "");
+  EXPECT_EQ(gate.output(0.0)->linear.x, 0.4);
   std::string fault;
   for (const double bad : {kNan, -kNan, kInf, -kInf, 1e300, 50.0}) {
     for (int field = 0; field < 6; ++field) {
-      const GatedTwist output = gated(mutated(field, bad), params);
-      EXPECT_TRUE(isZero(output.twist)) << field << " " << bad;
-      EXPECT_NE(output.fault, "") << field << " " << bad;
-      if (std::isnan(bad)) fault = output.fault;
+      gate.receive(mutated(field, bad), 0.0);
+      EXPECT_TRUE(isZero(*gate.output(0.0))) << field << " " << bad;
+      EXPECT_NE(gate.fault(), "") << field << " " << bad;
+      if (std::isnan(bad)) fault = gate.fault();
     }
     for (int field = 0; field < 4 && !(std::abs(bad) < kInf); ++field) {
       navigation::SetpointLimiter limiter{navigation::LimitParams()};
