@@ -82,8 +82,7 @@ class ImageSource {
       const std::string why = whyNoTransport(transport);
       throw InputError(why.empty() ? error.what() : why);
     }
-    health_.watch([this] { return plugin_subscriber_.getTopic(); },
-                  [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });
+    health_.watch(plugin_subscriber_);
   }
 
   void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode) {

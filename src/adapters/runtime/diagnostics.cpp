@@ -20,8 +20,6 @@ constexpr double kUnhealthyClockSec = 1.0;
 constexpr double kGraceSec = 3.0;
 constexpr double kClockGraceSec = 15.0;  // for /clock itself: a bag begins when everything is up
 
-std::string withTwoDecimals(double value) { return formatted("%.2f", value); }
-
 Health consoleHealth() {
   if (!consoleIsStuck()) return {};
   return {Health::kWarn,
@@ -154,24 +152,13 @@ Health Diagnostics::clockHealth() {
             "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the world, "
             "or set use_sim_time to false"};
   if (steady_sec - clock_moved_sec_ > kUnhealthyClockSec)
-    return {Health::kWarn,
-            "/clock stands still since " + withTwoDecimals(steady_sec - clock_moved_sec_) + " s"};
+    return {Health::kWarn, formatted("/clock stands still since %.2f s", steady_sec - clock_moved_sec_)};
   return {};
 }
 
 TopicHealth::TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec)
     : name_(name), silence_sec_(silence_sec), started_sec_(steadyNowSec()) {
   diagnostics.add(name, [this] { return health(); });
-}
-
-void TopicHealth::watch(std::function<std::string()> topic, std::function<int()> publishers) {
-  topic_ = std::move(topic);
-  publishers_ = std::move(publishers);
-}
-
-void TopicHealth::watch(const ros::Subscriber& subscriber) {
-  watch([subscriber] { return subscriber.getTopic(); },
-        [subscriber] { return static_cast<int>(subscriber.getNumPublishers()); });
 }
 
 void TopicHealth::arrived() {

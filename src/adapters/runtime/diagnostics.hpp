@@ -94,9 +94,12 @@ class TopicHealth {
   /// \param silence_sec how long the topic may be silent, on the steady clock
   TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec);
 
-  /// Name and publishers are asked of the subscriber when they are needed.
-  void watch(std::function<std::string()> topic, std::function<int()> publishers);
-  void watch(const ros::Subscriber& subscriber);
+  /// Name and publishers are asked of the subscriber, of roscpp or image_transport, when they are needed.
+  template <typename Subscriber>
+  void watch(const Subscriber& subscriber) {
+    topic_ = [subscriber] { return subscriber.getTopic(); };
+    publishers_ = [subscriber] { return static_cast<int>(subscriber.getNumPublishers()); };
+  }
 
   void arrived();
   /// \param warning what is odd about the message, or nothing
