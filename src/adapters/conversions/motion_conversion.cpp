@@ -55,10 +55,6 @@ Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message) {
 
 geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose) { return tf2::toMsg(pose); }
 
-geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose) {
-  return tf2::eigenToTransform(pose).transform;
-}
-
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
   return tf2::toMsg(vector, message);
@@ -79,7 +75,7 @@ geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& p
   geometry_msgs::TransformStamped message;
   message.header = header;
   message.child_frame_id = child;
-  message.transform = toTransformMsg(pose);
+  message.transform = tf2::eigenToTransform(pose).transform;
   return message;
 }
 

@@ -45,7 +45,6 @@ struct Converted {
 };
 
 // --- geometry
-// ----------------------------------------------------------------------------------------------------
 
 /// Normalises; refuses what is not finite or further than 1 % from unit length.
 Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message);
@@ -53,7 +52,6 @@ Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message);
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message);
 
 geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose);
-geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose);
 geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
                                         const estimation::Matrix6d& covariance);
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector);
@@ -71,7 +69,6 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
                                                         const std::string& camera_frame);
 
 // --- sensors
-// -----------------------------------------------------------------------------------------------------
 
 /// \param rectified the images are rectified: P is used instead of K and D
 /// Binning and region of interest are applied: the camera is that of the image as it comes (REP 104).
@@ -90,7 +87,6 @@ struct StampedAttitude {
 Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame);
 
 // --- window
-// ------------------------------------------------------------------------------------------------------
 
 // Messages without header, and of detections without what the image was.
 window_ingress::WindowDetection toMsg(const detection::WindowObservation& window);
@@ -140,7 +136,6 @@ std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& 
                                               const std::string& odom_frame);
 
 // --- flight
-// ------------------------------------------------------------------------------------------------------
 
 /// In odom axes, or rotated into `base_link` by `R_odom_base`; `header.frame_id` says which.
 geometry_msgs::TwistStamped toTwistMsg(const navigation::Setpoint& setpoint, const FrameNames& frames,

@@ -11,15 +11,6 @@ using ChecksMsg = window_ingress::SystemChecks;
 using OpennessMsg = window_ingress::Openness;
 using StateMsg = window_ingress::IngressState;
 
-bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
-  return std::all_of(m.covariance.begin(), m.covariance.end(),
-                     [](double number) { return std::isfinite(number); });
-}
-
-estimation::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& message) {
-  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data());
-}
-
 window_ingress::RelativeYaw relativeYawMsg(const estimation::WindowPoseEstimate& estimate) {
   window_ingress::RelativeYaw message;
   message.angle = estimate.yaw_rad;
@@ -199,7 +190,9 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
   if (!stamp_sec) return {std::nullopt, "filtered.header.stamp is zero or not normalised"};
   const auto pose = fromMsg(filtered.pose.pose);
   if (!pose) return {std::nullopt, pose.reason};
-  if (!isFinite(filtered.pose)) return {std::nullopt, "covariance is not finite"};
+  const estimation::Matrix6d covariance =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(filtered.pose.covariance.data());
+  if (!covariance.allFinite()) return {std::nullopt, "covariance is not finite"};
   const geometry::OpeningSize opening{message.size.width, message.size.height};
   if (!(opening.width_m > 0.0 && opening.height_m > 0.0) || !std::isfinite(opening.width_m) ||
       !std::isfinite(opening.height_m))
@@ -207,7 +200,7 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
   navigation::TargetEstimate target;
   target.stamp_sec = *stamp_sec;
   target.T_odom_window = *pose.value;
-  target.covariance = covarianceFromMsg(filtered.pose);
+  target.covariance = covariance;
   target.motion = fromMsg(filtered.motion);
   target.pose_stamp_sec = *stamp_sec + filtered.age;
   target.sign_trusted = filtered.sign_trusted != 0;

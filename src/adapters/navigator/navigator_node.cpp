@@ -12,7 +12,7 @@ namespace window_ingress::adapters {
 namespace {
 
 // Which axes, not which name: frame_id is filled from odom_frame and base_frame.
-constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
+constexpr const char* kBaseAxes = "base_link";
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
 constexpr double kRounding = 1e-6;

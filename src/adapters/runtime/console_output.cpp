@@ -15,10 +15,6 @@
 namespace window_ingress::adapters {
 namespace {
 
-struct Pipe {
-  int out = -1, in = -1;
-};
-
 // It must not hold open what others take for closed when the node has died.
 void closeAllBut(int one, int other) {
   DIR* const all = opendir("/proc/self/fd");
@@ -69,14 +65,14 @@ void writeAll(int descriptor, const char* data, ssize_t size) {
 }  // namespace
 
 void decoupleOutput(int descriptor) {
-  Pipe pipe;
-  if (int ends[2]; ::pipe(ends) == 0) pipe = {ends[0], ends[1]};
-  if (pipe.in < 0) return;
+  int ends[2];
+  if (pipe(ends) != 0) return;
+  const auto [out, in] = ends;
   const pid_t child = fork();
-  if (child == 0) passOn(pipe.out, descriptor);
-  if (child > 0 && fcntl(pipe.in, F_SETFL, O_NONBLOCK) == 0) dup2(pipe.in, descriptor);
-  close(pipe.in);
-  close(pipe.out);
+  if (child == 0) passOn(out, descriptor);
+  if (child > 0 && fcntl(in, F_SETFL, O_NONBLOCK) == 0) dup2(in, descriptor);
+  close(in);
+  close(out);
 }
 
 void decoupleConsole() {

@@ -124,7 +124,7 @@ TEST(Pose, GoesThereAndBack) {
     const Eigen::Vector3d position(number(random), number(random), number(random));
     const Eigen::Isometry3d pose = geometry::makePose(q.toRotationMatrix(), position);
     EXPECT_TRUE(fromMsg(toPoseMsg(pose)).value->isApprox(pose, 1e-12));
-    EXPECT_TRUE(fromMsg(toTransformMsg(pose)).value->isApprox(pose, 1e-12));
+    EXPECT_TRUE(fromMsg(toTransformStampedMsg(pose, {}, "").transform).value->isApprox(pose, 1e-12));
   }
 }
 
