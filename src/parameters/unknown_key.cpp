@@ -188,9 +188,4 @@ std::string unknownKey(const std::string& shown, const std::string& path,
   return shown + ": unknown key" + didYouMean(path, known);
 }
 
-std::string unknownParameter(const std::string& name_space, const std::string& path,
-                             const std::vector<std::string>& known) {
-  return "unknown parameter " + name_space + "/" + path + didYouMean(path, known);
-}
-
 }  // namespace window_ingress::parameters

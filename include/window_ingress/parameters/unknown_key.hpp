@@ -17,9 +17,6 @@ std::vector<std::string> keysOf(const std::vector<Field>& fields);
 /// \param known all that somebody reads
 std::string unknownKey(const std::string& shown, const std::string& path,
                        const std::vector<std::string>& known);
-/// The same of a parameter on the ROS parameter server.
-std::string unknownParameter(const std::string& name_space, const std::string& path,
-                             const std::vector<std::string>& known);
 
 /// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or where
 /// nothing is like it the few keys that could stand there, or nothing.

@@ -22,13 +22,6 @@ using Types = std::set<std::string>;
 
 const Types kImages{"sensor_msgs/Image", "sensor_msgs/CompressedImage"};
 
-std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag) {
-  std::map<std::string, std::string> found;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections())
-    found[connection->topic] = connection->datatype;
-  return found;
-}
-
 bool isAside(const std::string& topic) {
   for (const char* part : {"ground_truth", "debug", "/demo/", "/rosbag/"})
     if (topic.find(part) != std::string::npos) return true;
@@ -133,6 +126,13 @@ void openBag(rosbag::Bag& bag, const std::string& file) {
   } catch (const std::exception& error) {  // of whatever a damaged file makes it allocate
     throw InputError(file + ": damaged: " + error.what());
   }
+}
+
+std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag) {
+  std::map<std::string, std::string> found;
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections())
+    found[connection->topic] = connection->datatype;
+  return found;
 }
 
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted) {

@@ -25,6 +25,9 @@ struct BagTopics {
 /// Opens a bag for reading. \throws InputError for a missing, empty, truncated or otherwise broken file
 void openBag(rosbag::Bag& bag, const std::string& file);
 
+/// Types of messages by the topics that the bag has.
+std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag);
+
 /// Fills in what is empty: the one topic of the right type, ground truth and debug images left aside. An
 /// image topic may be named without its "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
 /// InputError if there are no images, no calibration, or several topics to choose from

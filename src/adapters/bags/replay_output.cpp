@@ -28,11 +28,8 @@ std::string useOf(const std::string& topic, const BagTopics& topics) {
 }
 
 Json topicsOf(const rosbag::Bag& bag, const BagTopics& used) {
-  std::map<std::string, std::string> types;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections())
-    types[connection->topic] = connection->datatype;
   Json topics = Json::array();
-  for (const auto& [topic, type] : types)
+  for (const auto& [topic, type] : typesByTopic(bag))
     topics.push_back({{"topic", topic},
                       {"type", type},
                       {"messages", messagesIn(bag, topic)},

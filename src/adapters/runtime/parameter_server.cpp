@@ -19,21 +19,15 @@ bool take(XmlRpcValue& from, double& value) {
   value = is_whole ? static_cast<int&>(from) : static_cast<double&>(from);
   return true;
 }
-bool take(XmlRpcValue& from, int& value) {
-  if (from.getType() != XmlRpcValue::TypeInt) return false;
-  value = static_cast<int&>(from);
+template <typename Value>
+bool takeIf(XmlRpcValue::Type type, XmlRpcValue& from, Value& value) {
+  if (from.getType() != type) return false;
+  value = static_cast<Value&>(from);
   return true;
 }
-bool take(XmlRpcValue& from, bool& value) {
-  if (from.getType() != XmlRpcValue::TypeBoolean) return false;
-  value = static_cast<bool&>(from);
-  return true;
-}
-bool take(XmlRpcValue& from, std::string& value) {
-  if (from.getType() != XmlRpcValue::TypeString) return false;
-  value = static_cast<std::string&>(from);
-  return true;
-}
+bool take(XmlRpcValue& from, int& value) { return takeIf(XmlRpcValue::TypeInt, from, value); }
+bool take(XmlRpcValue& from, bool& value) { return takeIf(XmlRpcValue::TypeBoolean, from, value); }
+bool take(XmlRpcValue& from, std::string& value) { return takeIf(XmlRpcValue::TypeString, from, value); }
 bool take(XmlRpcValue& from, std::vector<double>& value) {
   if (from.getType() != XmlRpcValue::TypeArray) return false;
   value.resize(static_cast<std::size_t>(from.size()));
@@ -77,7 +71,7 @@ class TreeReader {
       if (const Field* field = parameters::find(fields_, key))
         readField(value, *field);
       else if (std::find(keys_.begin(), keys_.end(), key) == keys_.end())
-        faults.push_back(parameters::unknownParameter(name_space_, key, keys_));
+        faults.push_back("unknown parameter " + name_space_ + "/" + key + parameters::didYouMean(key, keys_));
       else if (value.getType() == XmlRpcValue::TypeStruct)
         read(value, key + "/", others);
       else
