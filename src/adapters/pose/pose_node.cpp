@@ -62,7 +62,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
-        [this](const auto&) { processInStep(); });
+        [this](const auto&) { processPending(true); });
     camera_.notify([this] { lockstep_->check(); });
   } else {
     timer_ = createCatchingTimer(nh, kPendingPeriodSec, "pending image", diagnostics_,
@@ -74,16 +74,9 @@ bool PoseNode::isComplete(const Lockstep::Step& step) const {
   const bool first = !step.has_image, with_imu = imu_health_.has_value();
   const bool connected = camera_.isConnected() && odom_subscriber_.getNumPublishers() > 0 &&
                          (!with_imu || imu_subscriber_.getNumPublishers() > 0);
-  if (first && !(connected && mounting(step.header.frame_id))) return false;
+  if (first && !(connected && mountingOf(tf_, vehicle_.frames.base, step.header.frame_id))) return false;
   return window_came_ >= step.image && odom_came_ >= step.odom && (!with_imu || imu_came_ >= step.imu) &&
          camera_.lastStamp() >= step.camera_info;
-}
-
-void PoseNode::processInStep() {
-  if (!pending_) return;
-  const window_ingress::WindowDetectionConstPtr message = pending_;
-  pending_.reset();
-  process(*message);
 }
 
 void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& message) {
@@ -191,7 +184,7 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
                                      window_ingress::WindowPose& out) {
   using Filtered = window_ingress::FilteredPose;
   using Image = window_ingress::ImagePose;
-  T_base_camera_ = mounting(message.header.frame_id);
+  T_base_camera_ = mountingOf(tf_, vehicle_.frames.base, message.header.frame_id);
   auto window = fromMsg(message);
   if (window && message.image_width == 0) window = {std::nullopt, "image_width is zero"};
   if (!window) {
@@ -227,10 +220,6 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
   if (update.pose.estimate) out.size = toMsg(update.pose.estimate->opening);
   if (!T_base_camera_) return {Filtered::NO_MOUNTING, T_base_camera_.reason};
   return {update.why_not.empty() ? Filtered::OK : Filtered::REFUSED, update.why_not};
-}
-
-Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
-  return mountingOf(tf_, vehicle_.frames.base, camera_frame);
 }
 
 void PoseNode::restartIfClockJumpedBack() {

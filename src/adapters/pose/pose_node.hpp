@@ -46,14 +46,12 @@ class PoseNode : public Node {
   void takeImu(const sensor_msgs::ImuConstPtr& message);
   void processPending(bool however_old);
   bool isComplete(const Lockstep::Step& step) const;
-  void processInStep();
   void process(const window_ingress::WindowDetection& message);
   struct Refusal {
     std::uint8_t reject;
     std::string reason;
   };
   Refusal estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
-  Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   bool reset(Trigger::Request& request, Trigger::Response& response);
   void forget();
   bool isFromBeforeReset(const std_msgs::Header& header) const {
