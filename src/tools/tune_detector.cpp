@@ -12,9 +12,9 @@
 #include "display.hpp"
 #include "evaluation/statistics.hpp"
 #include "params_file.hpp"
+#include "slider.hpp"
 #include "tuning.hpp"
 #include "value_table.hpp"
-#include "window_ingress/parameters/slider.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace {
@@ -111,7 +111,7 @@ class Desk {
  private:
   struct Bar {
     const Field* field;
-    parameters::Slider slider;
+    tools::Slider slider;
     Desk* desk;
   };
 
@@ -138,7 +138,7 @@ class Desk {
     bars_.clear();
     for (const Field& field : bench_.fields())
       if (groupOf(field) == groups_[static_cast<std::size_t>(group_)])
-        bars_.push_back({&field, parameters::Slider(field), this});
+        bars_.push_back({&field, tools::Slider(field), this});
     for (Bar& bar : bars_) {
       cv::createTrackbar(bar.field->name, kSliders, nullptr, bar.slider.positions(), moved, &bar);
       cv::setTrackbarPos(bar.field->name, kSliders, bar.slider.positionOf(bar.field->get()));

@@ -1,10 +1,10 @@
-#include "window_ingress/parameters/slider.hpp"
+#include "tools/slider.hpp"
 
 #include <gtest/gtest.h>
 
 #include "window_ingress/detection/detector_params.hpp"
 
-namespace window_ingress::parameters::slider_test {
+namespace window_ingress::tools::slider_test {
 
 template <typename Value>
 Slider sliderOf(Value value, double minimum, double maximum) {
@@ -28,7 +28,7 @@ TEST(Slider, WideRangesGoByTheLogarithm) {
 // Of every parameter that there is: the ends are reached, it never falls, and the default is kept to a step.
 TEST(Slider, FitsEveryParameterOfTheDetector) {
   detection::DetectorParams params;
-  for (const Field& one : fieldsOf(params)) {
+  for (const parameters::Field& one : parameters::fieldsOf(params)) {
     const Slider slider(one);
     EXPECT_EQ(slider.positionOf(one.minimum), 0) << one.name;
     EXPECT_EQ(slider.positionOf(one.maximum), slider.positions()) << one.name;
@@ -43,4 +43,4 @@ TEST(Slider, FitsEveryParameterOfTheDetector) {
   }
 }
 
-}  // namespace window_ingress::parameters::slider_test
+}  // namespace window_ingress::tools::slider_test
