@@ -29,13 +29,6 @@ std::string wordFault(const Field& field, const std::string& word) {
   return allowed.empty() || is_one ? "" : field.name + " = " + word + " is none of " + joined(allowed, ", ");
 }
 
-std::vector<std::string> split(const std::string& path) {
-  std::vector<std::string> parts;
-  std::istringstream stream(path);
-  for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
-  return parts;
-}
-
 // The fewest digits that read back as the same number, with a point: without one, ROS takes it for an int,
 // and "1e-05" for a text.
 std::string shortest(double value) {
@@ -140,30 +133,6 @@ std::vector<Field> changed(const std::vector<Field>& fields, const std::vector<F
     if (old && old->get() != field.get()) result.push_back(field);
   }
   return result;
-}
-
-std::string toYaml(const std::vector<Field>& fields, const std::string& path) {
-  std::ostringstream text;
-  std::vector<std::string> open;
-  const auto descend = [&](const std::vector<std::string>& groups) {
-    std::size_t same = 0;
-    while (same < open.size() && same < groups.size() && open[same] == groups[same]) ++same;
-    open.resize(same);
-    for (; open.size() < groups.size(); open.push_back(groups[open.size()]))
-      text << std::string(2 * open.size(), ' ') << groups[open.size()] << ":\n";
-  };
-  const std::vector<std::string> top = split(path);
-  for (const Field& field : fields) {
-    std::vector<std::string> groups = top, names = split(field.name);
-    groups.insert(groups.end(), names.begin(), names.end() - 1);
-    descend(groups);
-    text << std::string(2 * open.size(), ' ') << names.back() << ": " << toText(field) << "\n";
-  }
-  if (fields.empty() && !top.empty()) {
-    descend({top.begin(), top.end() - 1});
-    text << std::string(2 * open.size(), ' ') << top.back() << ": {}\n";
-  }
-  return text.str();
 }
 
 }  // namespace window_ingress::parameters

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <ios>
+#include <sstream>
 #include <type_traits>
 
 #include "window_ingress/parameters/unknown_key.hpp"
@@ -148,6 +149,19 @@ std::set<std::string> readYamlFile(const std::string& file, const std::vector<Fi
   reader.read(loadYaml(file), "");
   reader.faults.throwIfAny();
   return reader.said;
+}
+
+std::string toYaml(const std::vector<Field>& fields, const std::string& path) {
+  YAML::Node root(YAML::NodeType::Map);
+  const auto at = [&root](const std::string& whole) {
+    YAML::Node node = root;
+    std::istringstream parts(whole);
+    for (std::string part; std::getline(parts, part, '/');) node.reset(node[part]);
+    return node;
+  };
+  if (fields.empty()) at(path) = YAML::Load("{}");
+  for (const Field& field : fields) at(path + "/" + field.name) = toText(field);
+  return YAML::Dump(root) + "\n";
 }
 
 }  // namespace window_ingress::parameters
