@@ -14,11 +14,6 @@ constexpr double kUnitTolerance = 0.01;
 constexpr double kFarthestM = 1e5;  // beyond it a position is a fault, not a place
 constexpr double kFastestMps = 100.0, kFastestRadps = 100.0;
 
-template <typename Value>
-Converted<Value> refused(const std::string& reason) {
-  return {std::nullopt, reason};
-}
-
 std::string frameFault(const char* field, const std::string& found, const std::string& wanted) {
   if (found == wanted) return "";
   return std::string(field) + " is '" + found.substr(0, 60) + "', expected '" + wanted + "'";
@@ -29,18 +24,18 @@ std::string frameFault(const char* field, const std::string& found, const std::s
 Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message) {
   const Eigen::Quaterniond q(message.w, message.x, message.y, message.z);
   const double norm = q.norm();
-  if (!std::isfinite(norm)) return refused<Eigen::Quaterniond>("quaternion is not finite");
+  if (!std::isfinite(norm)) return {std::nullopt, "quaternion is not finite"};
   if (std::abs(norm - 1.0) > kUnitTolerance)
-    return refused<Eigen::Quaterniond>("quaternion has length " + std::to_string(norm) + " instead of 1");
+    return {std::nullopt, "quaternion has length " + std::to_string(norm) + " instead of 1"};
   return {q.normalized(), ""};
 }
 
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message) {
   const Eigen::Vector3d position(message.position.x, message.position.y, message.position.z);
   if (!position.allFinite() || position.norm() > kFarthestM)
-    return refused<Eigen::Isometry3d>("position is not finite or beyond 100 km");
+    return {std::nullopt, "position is not finite or beyond 100 km"};
   const auto rotation = fromMsg(message.orientation);
-  if (!rotation) return refused<Eigen::Isometry3d>(rotation.reason);
+  if (!rotation) return {std::nullopt, rotation.reason};
   return {geometry::makePose(rotation.value->toRotationMatrix(), position), ""};
 }
 
@@ -92,18 +87,17 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
 }
 
 Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames) {
-  using State = navigation::VehicleState;
   const auto stamp_sec = stampSec(message.header.stamp);
-  if (!stamp_sec) return refused<State>(kNoStamp);
+  if (!stamp_sec) return {std::nullopt, kNoStamp};
   std::string fault = frameFault("header.frame_id", message.header.frame_id, frames.odom);
   if (fault.empty()) fault = frameFault("child_frame_id", message.child_frame_id, frames.base);
-  if (!fault.empty()) return refused<State>(fault);
+  if (!fault.empty()) return {std::nullopt, fault};
   const auto pose = fromMsg(message.pose.pose);
-  if (!pose) return refused<State>(pose.reason);
+  if (!pose) return {std::nullopt, pose.reason};
   const Eigen::Vector3d velocity_base = toEigen(message.twist.twist.linear);
   if (!velocity_base.allFinite() || velocity_base.norm() > kFastestMps)
-    return refused<State>("velocity is not finite or above 100 m/s");
-  State state;
+    return {std::nullopt, "velocity is not finite or above 100 m/s"};
+  navigation::VehicleState state;
   state.stamp_sec = *stamp_sec;
   state.T_odom_base = *pose.value;
   state.velocity_odom_mps = pose.value->linear() * velocity_base;
@@ -114,13 +108,13 @@ Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, c
 
 Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame) {
   const auto stamp_sec = stampSec(message.header.stamp);
-  if (!stamp_sec) return refused<StampedAttitude>(kNoStamp);
+  if (!stamp_sec) return {std::nullopt, kNoStamp};
   const std::string fault = frameFault("header.frame_id", message.header.frame_id, base_frame);
-  if (!fault.empty()) return refused<StampedAttitude>(fault);
+  if (!fault.empty()) return {std::nullopt, fault};
   if (message.orientation_covariance[0] == -1.0)
-    return refused<StampedAttitude>("the IMU says that it has no orientation (covariance -1)");
+    return {std::nullopt, "the IMU says that it has no orientation (covariance -1)"};
   const auto rotation = fromMsg(message.orientation);
-  if (!rotation) return refused<StampedAttitude>(rotation.reason);
+  if (!rotation) return {std::nullopt, rotation.reason};
   return {StampedAttitude{*stamp_sec, *rotation.value}, ""};
 }
 
@@ -137,15 +131,14 @@ geometry_msgs::TwistStamped toTwistMsg(const navigation::Setpoint& setpoint, con
 
 Converted<navigation::Setpoint> fromMsg(const geometry_msgs::TwistStamped& message, const FrameNames& frames,
                                         const Eigen::Matrix3d& R_odom_base) {
-  using navigation::Setpoint;
   const bool in_base = message.header.frame_id == frames.base;
   if (!in_base && message.header.frame_id != frames.odom)
-    return refused<Setpoint>("header.frame_id is '" + message.header.frame_id.substr(0, 60) +
-                             "', expected '" + frames.odom + "' or '" + frames.base + "'");
+    return {std::nullopt, "header.frame_id is '" + message.header.frame_id.substr(0, 60) + "', expected '" +
+                              frames.odom + "' or '" + frames.base + "'"};
   const Eigen::Vector3d linear = toEigen(message.twist.linear), angular = toEigen(message.twist.angular);
-  if (!linear.allFinite() || !angular.allFinite()) return refused<Setpoint>("velocity is not finite");
+  if (!linear.allFinite() || !angular.allFinite()) return {std::nullopt, "velocity is not finite"};
   const Eigen::Matrix3d R_odom_frame = in_base ? R_odom_base : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  Setpoint setpoint;
+  navigation::Setpoint setpoint;
   setpoint.velocity_odom_mps = R_odom_frame * linear;
   setpoint.yaw_rate_radps = (R_odom_frame * angular).z();
   return {setpoint, ""};
