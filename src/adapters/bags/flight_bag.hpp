@@ -39,10 +39,10 @@ class FlightBag : public evaluation::FlightObserver {
     world_ = &world;
     twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
     const ros::Time stamp = stampOf(0.0);
-    write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
-    write("/reference", stamp, toReferenceMsg(world, headerOf(stamp, kCameraFrame)));
-    write("/ground_truth/window", stamp,
-          toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
+    bag_->write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
+    bag_->write("/reference", stamp, toReferenceMsg(world, headerOf(stamp, kCameraFrame)));
+    bag_->write("/ground_truth/window", stamp,
+                toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
   }
 
   void onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace&,
@@ -53,39 +53,39 @@ class FlightBag : public evaluation::FlightObserver {
     image.format = "bgr8; jpeg compressed bgr8";
     cv::imencode(".jpg", frame.image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, 95});
     image.data.assign(jpeg_.begin(), jpeg_.end());
-    write("/camera/image_raw/compressed", now, image);
-    write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, image.header));
+    bag_->write("/camera/image_raw/compressed", now, image);
+    bag_->write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, image.header));
   }
 
   void onCalibration(const simulation::CalibrationSample& sample) override {
     sensor_msgs::CameraInfo info = toMsg(sample.camera);
     info.header = headerOf(stampOf(sample.stamp_sec), kCameraFrame);
-    write("/camera/camera_info", stampOf(world_->timeSec()), info);
+    bag_->write("/camera/camera_info", stampOf(world_->timeSec()), info);
   }
 
   void onOdometry(const simulation::OdometrySample& sample) override {
     const ros::Time now = stampOf(world_->timeSec());
     const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), frames_, twist_in_odom_);
-    write("/odom", now, message);
-    write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
+    bag_->write("/odom", now, message);
+    bag_->write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
   }
 
   void onImu(const simulation::ImuSample& sample) override {
-    write("/imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
+    bag_->write("/imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
   }
 
   void onStep(const evaluation::FlightRecord&, const navigation::NavigatorOutput& output) override {
     const ros::Time now = stampOf(world_->timeSec());
     geometry_msgs::TwistStamped setpoint = toTwistMsg(output.setpoint, frames_, std::nullopt);
     setpoint.header.stamp = now;
-    if (output.enabled) write("/cmd_vel", now, setpoint);
+    if (output.enabled) bag_->write("/cmd_vel", now, setpoint);
     window_ingress::IngressState state = toMsg(output);
     state.header = headerOf(now, frames_.odom);
-    write("/state", now, state);
-    write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
+    bag_->write("/state", now, state);
+    bag_->write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
     if (world_->scenario().sway.amplitude_m > 0.0)
-      write("/ground_truth/window", now,
-            toPoseStampedMsg(world_->T_odom_window(), headerOf(now, frames_.odom)));
+      bag_->write("/ground_truth/window", now,
+                  toPoseStampedMsg(world_->T_odom_window(), headerOf(now, frames_.odom)));
   }
 
   /// Writes what is left
@@ -102,11 +102,6 @@ class FlightBag : public evaluation::FlightObserver {
 
   static constexpr double kEpochSec = 100.0;  // a stamp of zero means unstamped
   static constexpr const char* kCameraFrame = "camera_optical_frame";
-
-  template <typename Message>
-  void write(const char* topic, const ros::Time& now, const Message& message) {
-    bag_->write(topic, now, message);
-  }
 
   std::unique_ptr<rosbag::Bag> bag_;
   FrameNames frames_;
