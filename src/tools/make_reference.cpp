@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adapters/images/reference_source.hpp"
+#include "adapters/markers/marker_sketch.hpp"
 #include "command_line.hpp"
 #include "corner_fit.hpp"
 #include "display.hpp"
@@ -118,7 +119,8 @@ class CornerClicks {
     lens.copyTo(panel(cv::Rect({kMargin, kMargin}, lens.size())));
     int y = lens.rows + 2 * kMargin + 10;
     const auto write = [&](const std::string& text, const cv::Scalar& colour) {
-      for (const std::string& line : wrapped(text)) {
+      std::istringstream lines(adapters::wrapped(text, kLetters));
+      for (std::string line; std::getline(lines, line);) {
         cv::putText(panel, line, {kMargin, y}, cv::FONT_HERSHEY_SIMPLEX, 0.42, colour, 1, cv::LINE_AA);
         y += kLine;
       }
@@ -134,16 +136,6 @@ class CornerClicks {
     write(said_.empty() ? kNext[points_.size()] : said_, cv::Scalar(60, 220, 255));
   }
 
-  static std::vector<std::string> wrapped(const std::string& text) {
-    std::vector<std::string> lines(1);
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-      if (lines.back().size() + word.size() > kLetters) lines.emplace_back();
-      lines.back() += (lines.back().empty() ? "" : " ") + word;
-    }
-    return lines;
-  }
-
   static constexpr const char* kWindow = "make_reference";
   // What the title asks for, by the number of corners there are.
   static constexpr const char* kNext[] = {
@@ -152,7 +144,7 @@ class CornerClicks {
       "four corners: Enter saves, f fits them to the edges, u takes the last one back"};
   static constexpr int kLens = 45, kZoom = 4, kMargin = 10, kLine = 18;  // [px]
   static constexpr int kPanelWidth = 300, kPanelHeight = 440;            // [px]
-  static constexpr std::size_t kLetters = 38;
+  static constexpr std::size_t kLetters = 39;                            // of a line
   const cv::Scalar kBorder{60, 230, 60}, kCorner{0, 255, 255}, kText{220, 220, 220};
 
   cv::Mat image_;
