@@ -18,6 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Seconds with all nine decimals, which a double has not.
+std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
+
 std::string useOf(const std::string& topic, const BagTopics& topics) {
   if (topic == topics.image) return "image";
   if (topic == topics.camera_info) return "camera-info";
@@ -158,8 +161,6 @@ std::string commandLine(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) text += " " + shellQuoted(argv[i]);
   return text;
 }
-
-std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
 
 ReplayTables::ReplayTables(const std::filesystem::path& folder, const ReplayParams& params)
     : params_(params),

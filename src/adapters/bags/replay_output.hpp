@@ -47,9 +47,6 @@ class ReplayTables {
   evaluation::TruthSummary summary_;
 };
 
-/// Seconds with all nine decimals, which a double has not.
-std::string exactText(const ros::Time& stamp);
-
 /// Writes pictures/NNNNN.jpg, at most `kMax` of them and one at each change between found and not found, and
 /// strip.csv: stamp, file, why it is there, and what it shows.
 class DetectionStrip {

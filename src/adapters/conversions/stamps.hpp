@@ -3,14 +3,22 @@
 
 #include <ros/time.h>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace window_ingress::adapters {
 
 /// Seconds of a stamp; nothing if it is zero (unstamped) or its nanoseconds are not below 1e9.
-std::optional<double> stampSec(const ros::Time& stamp);
+inline std::optional<double> stampSec(const ros::Time& stamp) {
+  if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
+  return stamp.toSec();
+}
 
 /// The nearest stamp of a time in seconds; zero for what a stamp cannot hold.
-ros::Time toStamp(double sec);
+inline ros::Time toStamp(double sec) {
+  constexpr double kEnd = std::numeric_limits<std::uint32_t>::max();
+  return sec >= 0.0 && sec < kEnd ? ros::Time(sec) : ros::Time();
+}
 
 }  // namespace window_ingress::adapters

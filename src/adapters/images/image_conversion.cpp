@@ -60,6 +60,15 @@ bool endsWith(const Bytes& bytes, std::size_t end, std::initializer_list<std::ui
          std::equal(mark.begin(), mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end - mark.size()));
 }
 
+// Whether a JPEG or PNG ends before its end mark: a decoder would fill what is missing with grey. Zeros
+// behind the end are padding.
+bool isCutOff(const Bytes& bytes) {
+  std::size_t end = bytes.size();
+  while (end > 0 && bytes[end - 1] == 0) --end;
+  return !endsWith(bytes, end, {0xff, 0xd9}) &&
+         !endsWith(bytes, end, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
+}
+
 namespace enc = sensor_msgs::image_encodings;
 
 constexpr int kAsItIs = -1;
@@ -165,13 +174,6 @@ cv::Mat converted(const sensor_msgs::Image& message, const Encoding& encoding) {
 }
 
 }  // namespace
-
-bool isCutOff(const Bytes& bytes) {
-  std::size_t end = bytes.size();
-  while (end > 0 && bytes[end - 1] == 0) --end;
-  return !endsWith(bytes, end, {0xff, 0xd9}) &&
-         !endsWith(bytes, end, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
-}
 
 std::optional<CompressedSize> compressedSize(const Bytes& bytes) {
   const auto png = pngSize(bytes);

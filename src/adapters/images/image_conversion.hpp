@@ -25,10 +25,6 @@ struct CompressedSize {
 /// Size of a JPEG or PNG as its header tells, without decoding; nothing for anything else.
 std::optional<CompressedSize> compressedSize(const std::vector<std::uint8_t>& bytes);
 
-/// Whether a JPEG or PNG ends before its end mark: a decoder would fill what is missing with grey. Zeros
-/// behind the end are padding.
-bool isCutOff(const std::vector<std::uint8_t>& bytes);
-
 /// An image as the detector takes it, or why there is none.
 struct DecodedImage {
   cv::Mat image;  ///< CV_8UC1 or CV_8UC3 (BGR); empty if refused. Shares the message's bytes if it can.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 
@@ -11,7 +12,21 @@ class StuckCamera {
   static constexpr double kStuckSec = 1.0;
 
   /// \return whether the image has been the same for longer than `kStuckSec`
-  bool isStuck(const cv::Mat& image, double now_sec);
+  bool isStuck(const cv::Mat& image, double now_sec) {
+    constexpr std::size_t kStride = 101;  // a prime: every row and every column is sampled, some ten thousand
+                                          // bytes of a usual image
+    std::uint64_t checksum = 1469598103934665603ULL;  // FNV-1a
+    const std::size_t row_bytes = image.cols * image.elemSize();
+    std::size_t offset = 0;
+    for (int row = 0; row < image.rows; ++row) {
+      const unsigned char* bytes = image.ptr(row);
+      for (; offset < row_bytes; offset += kStride) checksum = (checksum ^ bytes[offset]) * 1099511628211ULL;
+      offset -= row_bytes;
+    }
+    if (since_sec_ < 0.0 || checksum != checksum_) since_sec_ = now_sec;
+    checksum_ = checksum;
+    return now_sec - since_sec_ > kStuckSec;
+  }
 
  private:
   std::uint64_t checksum_ = 0;
