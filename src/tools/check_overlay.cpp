@@ -46,8 +46,8 @@ tools::OptionList describe(Options& o) {
   add("reference-corners", o.corners, "x1,y1,...,x4,y4 in it [px]");
   add("window-size", o.window_size, "W,H of the opening [m]");
   add("needs-window-size", o.needs_window_size,
-      "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
-      "reference");
+      "true: refused if nobody says it, warn: warned; warned of a vehicle whose size is not said, too, or of "
+      "a missing reference");
   add("image-transport", o.image_transport, "by which images come");
   add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
@@ -72,6 +72,9 @@ std::string given(std::string text) {
   return text == "none" ? "" : text;
 }
 
+// Something flies that is no simulation of ours.
+bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
+
 /// \return width over height of the opening in the reference image; 0: nobody says it
 double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
@@ -84,7 +87,7 @@ double checkReference(const Options& o, const std::string& file,
   if (reference.picture.empty()) {
     if (!reference.corners.empty())
       throw InputError(from + "reference corners without their image: give reference:= as well");
-    if (o.needs_window_size == "true")
+    if (asksForSizes(o))
       tools::warn(
           "no reference image (reference:=, or window_detector/reference in the file): other windows and "
           "decoys are taken for the target");
@@ -228,10 +231,11 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   checkSpeeds(overlay);
   const bool by_argument = !given(o.window_size).empty();
   if (!by_argument) tools::checkBothSides(overlay);
-  const bool is_drone = o.needs_window_size == "true";
-  if (is_drone) faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay); });
+  if (asksForSizes(o))
+    faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
   const bool by_hand = o.launch_folder.empty() && o.fly.empty();
-  if (by_hand ? tools::saysOpening(overlay) : is_drone && o.fly == "true") tools::checkVehicleIsSaid(overlay);
+  if (by_hand ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
+    tools::checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
   const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/", {"half_width_m"}) ||
                                                          tools::says(overlay, "vehicle/", {"half_height_m"}));

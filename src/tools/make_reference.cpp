@@ -44,7 +44,7 @@ class CornerClicks {
       const int key = cv::waitKey(30) & 0xff;
       cv::setWindowTitle(kWindow, kNext[points_.size()]);  // what is asked for is on the screen by now
       if (key == 'q' || key == 27) return std::nullopt;
-      if (key == 'u' && !points_.empty()) points_.pop_back(), said_.clear();
+      if (key == 'u' && !points_.empty()) points_.pop_back(), said_.clear(), dragged_ = -1;
       if (points_.size() < 4) continue;
       if (key == 'f') fit();
       if ((key == '\r' || key == '\n') && !isDoubtful()) return flat(points_);
@@ -210,7 +210,8 @@ int run(const Job& job) {
   const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it
   std::cout << "written: " << files.image.string() << "\nlook at: " << files.understood.string()
             << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
-            << "roslaunch window_ingress ingress.launch config:=" << files.overlay.string() << "\n";
+            << "roslaunch window_ingress px4.launch window_size:=W,H config:=" << files.overlay
+            << ", likewise ardupilot.launch and ingress.launch; W,H: inner size of the opening [m]\n";
   return 0;
 }
 

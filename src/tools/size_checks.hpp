@@ -24,12 +24,15 @@ inline bool saysOpening(const configuration::Overlay& overlay) {
 }
 
 // A drone does not fly by the size of somebody else's window.
-inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& overlay) {
-  const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
-  if (!is_found_out && !by_argument && !saysOpening(overlay))
-    throw InputError(
-        "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
-        "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
+inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& overlay, bool is_refused) {
+  const auto& pose = overlay.homography_pose.pose;
+  const bool is_found_out = pose.scale_sigma > 0.0;  // in flight
+  if (is_found_out || by_argument || saysOpening(overlay)) return;
+  const std::string said =
+      "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
+      "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it";
+  if (is_refused) throw InputError(said);
+  warn(said + formatted("; taken for %g x %g m", pose.opening_width_m, pose.opening_height_m));
 }
 
 // A side that is not said is that of the default window.
@@ -48,7 +51,7 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
   if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
   const auto& vehicle = overlay.vehicle;
   warn(
-      formatted("the vehicle's size is not said: px4 and ardupilot.launch take it for one of %g x %g x %g m; "
+      formatted("the vehicle's size is not said: it is taken for one of %g x %g x %g m; "
                 "measure it, propellers included, and say in the file of config:= vehicle: "
                 "{half_length_m: L, half_width_m: W, half_height_m: H}",
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));

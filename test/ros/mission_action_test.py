@@ -270,6 +270,8 @@ class MissionActionTest(unittest.TestCase):
         call("reset")
         self.states.wait(lambda s: s.state_name == "IDLE" and s.reason == "disabled (~enable)" and not s.enabled, "IDLE, disabled")
         begin = time.monotonic() + 0.1
+        support.wait_for(lambda: time.monotonic() > begin, "setpoints of before")
+        self.assertIn("nothing to abort", call("abort").message)
         support.wait_for(lambda: time.monotonic() > begin + 1.0, "the time of the measurement")
         self.assertEqual(self.setpoints.since(begin), [])
         self.assertIn("disabled (~enable)", self.refusal())

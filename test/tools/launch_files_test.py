@@ -152,6 +152,16 @@ def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name):
     assert done.returncode == 1 and "the opening's size is not said: window_size:=W,H" in done.stderr, done.stderr
 
 
+def test_what_flies_without_saying_sizes_is_told_by_which_it_flies(tmp_path):
+    """ingress.launch is for other autopilots, too, and for simulators; those of the package say their sizes."""
+    said = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch").stderr
+    for warning in ("the opening's size is not said: ", "taken for 1.2 x 1 m", "the vehicle's size is not said: ", "no reference image"):
+        assert warning in said, said
+    for quiet in (["ingress", "fly:=false"], ["sim"], ["rehearse"], ["replay", "bag:=x.bag"], ["replay", "bag:=x.bag", "navigator:=true"]):
+        done = run("roslaunch", "--nodes", ROOT / f"launch/{quiet[0]}.launch", *quiet[1:])
+        assert done.returncode == 0 and "warning" not in done.stderr, done.stderr
+
+
 @pytest.mark.parametrize("text, is_said", [
     ("{}", False), ("vehicle: {half_width_m: 0.3}", False), ("homography_pose: {pose: {opening_width_m: 1.3}}", False),
     ("homography_pose: {odom_wait_sec: 0.1}", False), ("homography_pose: {pose: {scale_sigma: 0.0}}", False),
@@ -172,7 +182,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
     launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
     done = run("roslaunch", "--nodes", *launch)
     width = 2 * vehicle.get("half_width_m", 0.25)
-    assert done.returncode == 0 and f"the vehicle's size is not said: px4 and ardupilot.launch take it for one of 0.5 x {width:g} x " in done.stderr
+    assert done.returncode == 0 and f"the vehicle's size is not said: it is taken for one of 0.5 x {width:g} x " in done.stderr
     done = run("roslaunch", "--nodes", *launch, "fly:=false")
     assert done.returncode == 0 and "warning: no reference image" in done.stderr
 
@@ -389,7 +399,7 @@ def test_contradictions_are_said(tmp_path):
     assert "max_speed_mps 0.5 is not above ingress_navigator/navigator/limits/speed_mps 0.6" in done.stderr
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n")
     said = run("check_overlay", config, "--window-size", "1.6,1.4").stderr
-    assert said.count("warning: ") == 1 and "the vehicle's size is not said: px4 and ardupilot.launch take it for " in said
+    assert said.count("warning: ") == 1 and "the vehicle's size is not said: it is taken for " in said
     config.write_text(config.read_text() + "vehicle: {half_length_m: 0.2, half_width_m: 0.2, half_height_m: 0.1}\n")
     assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == ""
 

@@ -239,8 +239,10 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
 
 void NavigatorNode::stop() {
   timer_.stop();
+  const bool is_left_to_others = isLeftToOthers();
   navigator_.abort("aborted: the navigator's node ends");
   if (action_) action_->stop();
+  if (is_left_to_others) return;
   for (int i = 0; i < 5; ++i) {
     publishSetpoint(navigation::Setpoint(), ros::Time::now());
     ros::WallDuration(0.05).sleep();

@@ -58,6 +58,11 @@ class BagCheck : public testing::Test {
   const std::string file_ = folder_.path / "small.bag";
 };
 
+TEST_F(BagCheck, ABagIntoWhichNothingWasRecordedIsNotDamaged) {
+  rosbag::Bag(file_, rosbag::bagmode::Write).close();
+  EXPECT_EQ(whyDamaged(file_), "");
+}
+
 TEST_F(BagCheck, HasNothingAgainstWhatRosbagWrites) {
   for (const auto compression :
        {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
