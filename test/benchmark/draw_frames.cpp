@@ -14,11 +14,13 @@ constexpr int kImages = 8;
 constexpr double kRunUpSec = 1.0;
 constexpr unsigned kSeed = 3;
 
-/// A flight towards the window and a little sideways, from the scenario's start, looking at the target.
-bench::Sequence rendered(const std::string& name, const std::string& scenario_file) {
+/// A flight towards the window and a little sideways, from the scenario's start.
+/// \param heading_rad 0: looking at the target
+bench::Sequence rendered(const std::string& name, const std::string& scenario_file,
+                         double heading_rad = 0.0) {
   auto scenario = simulation::loadScenario(
       std::string(WINDOW_INGRESS_SOURCE_DIR) + "/config/scenarios/" + scenario_file, kSeed);
-  scenario.start.heading_rad = 0.0;
+  scenario.start.heading_rad = heading_rad;
   simulation::World world(scenario, kSeed);
   bench::Sequence sequence;
   sequence.name = name, sequence.kind = "rendering";
@@ -51,6 +53,7 @@ int main(int argc, char** argv) {
     bench::addToFrameSet(argv[1], rendered("brick", "brick.yaml"));
     bench::addToFrameSet(argv[1], rendered("siding", "siding.yaml"));
     bench::addToFrameSet(argv[1], rendered("lens", "gusty.yaml"));
+    bench::addToFrameSet(argv[1], rendered("away", "nominal.yaml", 0.9));  // a decoy is in view, not the target
     bench::addToFrameSet(argv[1], bench::brickWallSequence(kImages));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "draw_frames: %s\n", error.what());

@@ -35,6 +35,7 @@ class Graph:
         self.publishers, self.subscribers, self.services = dict(publishers), dict(subscribers), dict(services)
         self.types = dict(master_.getTopicTypes())
         self._master = master_
+        self._silent = set()  # nodes that did not answer: asked again, each would take as long again
 
     def nodes(self):
         return sorted({node for table in (self.publishers, self.subscribers, self.services) for nodes in table.values()
@@ -54,11 +55,14 @@ class Graph:
         return sorted(topic for topic, type_ in self.types.items() if type_ == kind and self.publishers.get(topic))
 
     def _ask(self, node, question):
+        if node in self._silent:
+            return None
         try:
             api = xmlrpc.client.ServerProxy(self._master.lookupNode(node))
             code, _, answer = getattr(api, question)(CALLER)
             return answer if code == 1 else None
         except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+            self._silent.add(node)
             return None
 
 
