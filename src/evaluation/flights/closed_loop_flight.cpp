@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "evaluation/flights/flight_perception.hpp"
+#include "evaluation/flights/projected_detector.hpp"
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
@@ -40,7 +41,7 @@ class Flight {
         world_(flyable(scenario), seed, imagesFor(params)),
         params_(withFactsOf(world_, params)),
         perception_(params_),
-        sight_(params_.sight, seed),
+        sight_(seed),
         navigator_(params_.ingress_navigator.navigator) {
     if (!params_.without_images) showReference();
     timing_.lap(Stage::kOther);

@@ -10,7 +10,6 @@
 
 #include "evaluation/flights/flight_observer.hpp"
 #include "evaluation/flights/flight_table.hpp"
-#include "evaluation/flights/projected_detector.hpp"
 #include "simulation/world.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/text/text.hpp"
@@ -21,7 +20,6 @@ namespace window_ingress::evaluation {
 /// is taken from the world.
 struct FlightParams : configuration::Overlay {
   bool without_images = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn
-  SightParams sight = {};
 };
 
 /// The parameters with what is known of the vehicle and its target before the flight.

@@ -1,10 +1,8 @@
 #include "evaluation/flights/projected_detector.hpp"
 
 #include <array>
-#include <stdexcept>
 
 #include "evaluation/poses/noisy_borders.hpp"
-#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -56,16 +54,10 @@ detection::Edge fitted(const Stretch& stretch, double sample_sigma_px, double la
   return edge;
 }
 
-SightParams checked(const SightParams& params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("sight: " + parameters::joined(faults));
-  return params;
-}
-
 }  // namespace
 
-ProjectedDetector::ProjectedDetector(const SightParams& params, std::uint32_t seed)
-    : params_(checked(params)), random_(seed, "projected sight") {}
+ProjectedDetector::ProjectedDetector(std::uint32_t seed, const SightParams& params)
+    : params_(params), random_(seed, "projected sight") {}
 
 void ProjectedDetector::renewLasting(const Eigen::Vector3d& position_m) {
   if (lasting_from_m_ && (position_m - *lasting_from_m_).norm() < params_.lasting_m) return;

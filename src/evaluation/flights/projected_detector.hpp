@@ -21,17 +21,6 @@ struct SightParams {
   double least_side_px = 24.0;     ///< smaller openings are not found [px]
   double least_part_px = 40.0;     ///< a side with less than this in the image is not seen [px]
   double picture_margin_px = 4.0;  ///< nor is what lies this near the image's border [px]
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("sample_sigma_px", self.sample_sigma_px, 0.01, 10.0);
-    field("lasting_sigma_px", self.lasting_sigma_px, 0.0, 10.0);
-    field("lasting_m", self.lasting_m, 0.01, 100.0);
-    field("miss_rate", self.miss_rate, 0.0, 1.0);
-    field("least_side_px", self.least_side_px, 1.0, 1000.0);
-    field("least_part_px", self.least_part_px, 1.0, 1000.0);
-    field("picture_margin_px", self.picture_margin_px, 0.0, 100.0);
-  }
 };
 
 /// What a detector that never errs would say: the true borders of the opening's front, cut by the image's
@@ -39,7 +28,7 @@ struct SightParams {
 /// measure of the whole: only of what comes behind the detector.
 class ProjectedDetector {
  public:
-  ProjectedDetector(const SightParams& params, std::uint32_t seed);
+  explicit ProjectedDetector(std::uint32_t seed, const SightParams& params = {});
 
   /// \param T_camera_window of the exposure \return nothing from behind or beside, out of the image, or
   /// missed

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -23,7 +21,7 @@ Eigen::Isometry3d T_camera_window(const Eigen::Vector3d& position_m, double turn
 
 std::optional<detection::WindowObservation> seenFrom(const Eigen::Vector3d& position_m,
                                                      double turn_rad = 0.0) {
-  ProjectedDetector sight(SightParams(), 1);
+  ProjectedDetector sight(1);
   sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.9);  // whole, once
   return sight.look(kCamera, T_camera_window(position_m, turn_rad), kOpening, 1.0);
 }
@@ -33,7 +31,7 @@ TEST(ProjectedDetector, CornersAreTheTrueOnesWithTheSpreadTheyState) {
   const auto truth = *geometry::projectOpening(kCamera, pose, kOpening);
   SightParams params;
   params.lasting_sigma_px = 0.0;
-  ProjectedDetector sight(params, 3);
+  ProjectedDetector sight(3, params);
   double squares = 0.0;
   constexpr int kViews = 2000;
   for (int i = 0; i < kViews; ++i) {
@@ -64,20 +62,18 @@ TEST(ProjectedDetector, NothingFromBehindBesideOrTooFar) {
 }
 
 TEST(ProjectedDetector, APartIsNoWindowBeforeTheWholeWasSeen) {
-  ProjectedDetector sight(SightParams(), 1);
+  ProjectedDetector sight(1);
   EXPECT_FALSE(sight.look(kCamera, T_camera_window({-0.92, 0.0, 0.0}), kOpening, 0.0));
 }
 
 TEST(ProjectedDetector, MissesAsOftenAsItIsToldTo) {
   SightParams params;
   params.miss_rate = 0.3;
-  ProjectedDetector sight(params, 5);
+  ProjectedDetector sight(5, params);
   int missed = 0;
   for (int i = 0; i < 2000; ++i)
     missed += !sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.03 * i);
   EXPECT_NEAR(missed / 2000.0, 0.3, 0.04);
-  params.miss_rate = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ProjectedDetector(params, 1), std::invalid_argument);
 }
 
 TEST(ProjectedDetector, AFlightWithoutImagesPassesAndRepeats) {
