@@ -54,7 +54,7 @@ class Pose : public benchmark::Fixture {
     });
   }
 
-  void runPeer(benchmark::State& state, evaluation::PeerMethod method) const {
+  void runPeer(benchmark::State& state, int method) const {
     run(state, [&](const auto& view) {
       return evaluation::poseByPeer(method, view.corners, setup.camera, setup.opening).has_value();
     });
@@ -63,11 +63,9 @@ class Pose : public benchmark::Fixture {
 
 BENCHMARK_F(Pose, ours)(benchmark::State& state) { runOurs(state, 0.15, 0.0); }
 BENCHMARK_F(Pose, ours_size_unknown)(benchmark::State& state) { runOurs(state, 0.15, 0.3); }
-BENCHMARK_F(Pose, ippe)(benchmark::State& state) { runPeer(state, evaluation::PeerMethod::kIppe); }
-BENCHMARK_F(Pose, iterative)(benchmark::State& state) { runPeer(state, evaluation::PeerMethod::kIterative); }
-BENCHMARK_F(Pose, homography)(benchmark::State& state) {
-  runPeer(state, evaluation::PeerMethod::kHomography);
-}
+BENCHMARK_F(Pose, ippe)(benchmark::State& state) { runPeer(state, evaluation::kIppe); }
+BENCHMARK_F(Pose, iterative)(benchmark::State& state) { runPeer(state, evaluation::kIterative); }
+BENCHMARK_F(Pose, homography)(benchmark::State& state) { runPeer(state, evaluation::kHomography); }
 
 }  // namespace
 

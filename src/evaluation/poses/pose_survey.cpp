@@ -181,12 +181,12 @@ void finish(PoseCellResult& result) {
 
 }  // namespace
 
-const char* toString(PeerMethod method) {
-  constexpr const char* kNames[kPeerMethods] = {"iterative", "ippe", "homography"};
-  return kNames[static_cast<std::size_t>(method)];
+const char* nameOfMethod(int method) {
+  constexpr const char* kNames[kPoseMethods] = {"ours", "ours_attitude", "iterative", "ippe", "homography"};
+  return kNames[method];
 }
 
-std::optional<Eigen::Isometry3d> poseByPeer(PeerMethod method, const geometry::Quadrilateral& corners,
+std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrilateral& corners,
                                             const geometry::PinholeCamera& camera,
                                             const geometry::OpeningSize& opening) {
   std::vector<cv::Point2d> image;
@@ -194,8 +194,8 @@ std::optional<Eigen::Isometry3d> poseByPeer(PeerMethod method, const geometry::Q
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   const std::vector<double> distortion(camera.distortion.begin(), camera.distortion.end());
   try {
-    if (method == PeerMethod::kHomography) return byHomography(image, K, distortion, opening);
-    const int flag = method == PeerMethod::kIppe ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_ITERATIVE;
+    if (method == kHomography) return byHomography(image, K, distortion, opening);
+    const int flag = method == kIppe ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_ITERATIVE;
     return byPnp(flag, image, K, distortion, opening);
   } catch (const cv::Exception&) {
     return std::nullopt;
@@ -207,12 +207,6 @@ PoseSurveySetup usualSetup() {
   setup.camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 2.0 * std::atan(320.0 / 554.0));
   setup.opening = {1.0, 1.0};
   return setup;
-}
-
-std::string nameOfMethod(int method) {
-  if (method == kOurs) return "ours";
-  if (method == kOursWithAttitude) return "ours_attitude";
-  return toString(static_cast<PeerMethod>(method - kFirstPeer));
 }
 
 double MethodErrors::yawRms() const { return std::sqrt(yaw_squares / std::max(1, count)); }
@@ -241,9 +235,8 @@ PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, in
     };
     addTo(result.methods[kOurs], *view, poseOf(alone));
     addTo(result.methods[kOursWithAttitude], *view, poseOf(with_attitude));
-    for (int peer = 0; peer < kPeerMethods; ++peer)
-      addTo(result.methods[kFirstPeer + peer], *view,
-            poseByPeer(static_cast<PeerMethod>(peer), window->corners, setup.camera, setup.opening));
+    for (int peer = kFirstPeer; peer < kPoseMethods; ++peer)
+      addTo(result.methods[peer], *view, poseByPeer(peer, window->corners, setup.camera, setup.opening));
   }
   finish(result);
   return result;

@@ -14,19 +14,21 @@
 
 namespace window_ingress::evaluation {
 
-/// What others make of the four corners of a window of known size. OpenCV's plane has x right, y down and z
-/// away from the viewer: with z towards the camera IPPE fails where the rotation is by exactly half a turn.
-enum class PeerMethod {
+/// Ours, and what others make of the four corners of a window of known size.
+enum PoseMethod {
+  kOurs,
+  kOursWithAttitude,
   kIterative,  ///< SOLVEPNP_ITERATIVE: least squares of the corners
   kIppe,       ///< SOLVEPNP_IPPE: the better of its two closed-form poses
   kHomography  ///< the homography decomposed into r1, r2, t (the paper's way)
 };
-constexpr int kPeerMethods = 3;
-const char* toString(PeerMethod method);
+constexpr int kFirstPeer = kIterative, kPoseMethods = kHomography + 1;
+const char* nameOfMethod(int method);
 
-/// `T_camera_window`; nothing where the method fails or gives numbers that are not finite.
-/// \param corners canonical order, distorted
-std::optional<Eigen::Isometry3d> poseByPeer(PeerMethod method, const geometry::Quadrilateral& corners,
+/// `T_camera_window` by one of the others; nothing where it fails or gives numbers that are not finite.
+/// OpenCV's plane has x right, y down and z away from the viewer: with z towards the camera IPPE fails where
+/// the rotation is by exactly half a turn. \param corners canonical order, distorted
+std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrilateral& corners,
                                             const geometry::PinholeCamera& camera,
                                             const geometry::OpeningSize& opening);
 
@@ -47,10 +49,6 @@ struct PoseCell {
   double yaw_rad = 0.0;          ///< magnitude, against the line of sight
   double sample_sigma_px = 0.0;  ///< noise of each pixel along a border
 };
-
-enum PoseMethod { kOurs, kOursWithAttitude, kFirstPeer };
-constexpr int kPoseMethods = kFirstPeer + kPeerMethods;
-std::string nameOfMethod(int method);
 
 /// Errors of one method in one cell.
 struct MethodErrors {

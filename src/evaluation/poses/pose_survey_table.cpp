@@ -28,7 +28,7 @@ std::string poseSurveyColumns() {
       "trusted_wrong,trusted_yaw_rmse_deg,yaw_consistency";
   for (int method = 0; method < kPoseMethods; ++method)
     for (const char* what : {"_yaw_rmse_deg", "_lateral_rmse_m", "_wrong_signs", "_failed"})
-      text += "," + nameOfMethod(method) + what;
+      text += std::string(",") + nameOfMethod(method) + what;
   return text;
 }
 
@@ -50,7 +50,7 @@ std::string poseSurveyTable(const std::vector<PoseCellResult>& results) {
   std::string text = "| distance m | yaw deg | noise px | bound deg | sigma_u deg | trusted % |";
   std::string rule = "|---|---|---|---|---|---|";
   for (int method = 0; method < kPoseMethods; ++method)
-    text += " " + nameOfMethod(method) + " |", rule += "---|";
+    text += std::string(" ") + nameOfMethod(method) + " |", rule += "---|";
   text += "\n" + rule + "\n";
   for (const PoseCellResult& r : results) {
     text += formatted("| %g | %g | %g | %.3f | %.3f | %.0f |", r.cell.distance_m,

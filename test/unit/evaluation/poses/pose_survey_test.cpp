@@ -63,19 +63,18 @@ TEST(NoisyBorders, HaveTheSpreadsThatTheyState) {
 
 TEST(PeerMethods, AreExactWithoutNoiseAndRefuseWhatIsNoWindow) {
   const auto setup = usualSetup();
-  for (int peer = 0; peer < kPeerMethods; ++peer) {
-    const auto method = static_cast<PeerMethod>(peer);
+  for (int method = kFirstPeer; method < kPoseMethods; ++method) {
     for (const double yaw : {-0.7, -0.1, 0.0, 0.3}) {
       const auto T = view(3, yaw);
       const auto corners = geometry::projectOpening(setup.camera, T, setup.opening).value();
       const auto found = poseByPeer(method, corners, setup.camera, setup.opening);
-      ASSERT_TRUE(found) << toString(method);
-      EXPECT_TRUE(found->isApprox(T, 1e-3)) << toString(method) << " " << yaw;
+      ASSERT_TRUE(found) << nameOfMethod(method);
+      EXPECT_TRUE(found->isApprox(T, 1e-3)) << nameOfMethod(method) << " " << yaw;
     }
     const geometry::Quadrilateral none{Eigen::Vector2d(1, 1), Eigen::Vector2d(1, 1), Eigen::Vector2d(1, 1),
                                        Eigen::Vector2d(NAN, 1)};
     const auto of_none = poseByPeer(method, none, setup.camera, setup.opening);
-    EXPECT_TRUE(!of_none || of_none->matrix().allFinite()) << toString(method);
+    EXPECT_TRUE(!of_none || of_none->matrix().allFinite()) << nameOfMethod(method);
   }
 }
 
