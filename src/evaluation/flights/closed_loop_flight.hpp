@@ -41,7 +41,6 @@ class FlightTiming {
     last_ = now;
   }
 
-  void begin() { last_ = Clock::now(); }
   void countFrame() { ++frames_; }
   void addSimulated(double sec) { simulated_sec_ += sec; }
   void add(const FlightTiming& other) {

@@ -8,7 +8,6 @@
 
 #include "evaluation/images/survey_flight.hpp"
 #include "simulation/scenario/scenario.hpp"
-#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/openness/interior_klt_params.hpp"
 #include "window_ingress/openness/openness_params.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
@@ -37,8 +36,8 @@ struct OpennessResult {
   std::uint32_t seed = 0;
   openness::OpennessVerdict at_decision;
   bool ever_open = false, ever_closed = false;
-  double open_from_m = 0.0;  ///< distance from the plane at which it was first called open; 0: never
-  double milliseconds = 0.0, slowest_ms = 0.0;  ///< for following and judging an image, mean and most
+  double open_from_m = 0.0;   ///< distance from the plane at which it was first called open; 0: never
+  double milliseconds = 0.0;  ///< for following and judging an image, mean
 };
 
 /// One step of an approach, for those who plot it.
