@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "simulation/camera/reference_image.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
@@ -199,10 +198,6 @@ Eigen::Isometry3d World::T_odom_window() const {
   Eigen::Isometry3d now = T_odom_window_;
   now.translation() += sway_.offsetOdom(time_sec_);
   return now;
-}
-
-cv::Mat World::referenceImage(geometry::Quadrilateral* corners) const {
-  return simulation::referenceImage(scenario_, corners);
 }
 
 }  // namespace window_ingress::simulation

@@ -88,13 +88,8 @@ class World {
   /// Where the odometry's frame has drifted to: `p_reported = drift * p_true`.
   Eigen::Isometry3d odometryDrift() const { return odometry_.drift(); }
   geometry::OpeningSize opening() const { return scenario_.opening(); }
-  Eigen::Vector3d vehicleHalfExtents() const {
-    return scenario_.vehicle.halfExtents();
-  }  ///< of the body's box [m]
   const Scenario& scenario() const { return scenario_; }
   const Referee& referee() const { return referee_; }
-  /// As `simulation::referenceImage` of the scenario.
-  cv::Mat referenceImage(geometry::Quadrilateral* corners) const;
 
  private:
   bool external() const { return scenario_.vehicle.profile == "external"; }

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "brick_wall.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/world.hpp"
 
 namespace {
@@ -36,7 +37,7 @@ bench::Sequence rendered(const std::string& name, const std::string& scenario_fi
     if (frame && frame->stamp_sec > kRunUpSec) sequence.images.push_back(frame->image.clone());
   }
   geometry::Quadrilateral corners;
-  const cv::Mat image = world.referenceImage(&corners);
+  const cv::Mat image = simulation::referenceImage(world.scenario(), &corners);
   sequence.reference.emplace(image, corners);
   return sequence;
 }

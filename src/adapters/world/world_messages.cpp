@@ -1,6 +1,7 @@
 #include "adapters/world/world_messages.hpp"
 
 #include "adapters/images/image_conversion.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
@@ -29,7 +30,7 @@ window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world,
                                               const std_msgs::Header& header) {
   geometry::Quadrilateral corners;
   window_ingress::ReferenceImage message;
-  message.image = *toImageMsg(world.referenceImage(&corners), header);
+  message.image = *toImageMsg(simulation::referenceImage(world.scenario(), &corners), header);
   for (std::size_t i = 0; i < 4; ++i) {
     message.corner_x[i] = corners[i].x();
     message.corner_y[i] = corners[i].y();

@@ -4,7 +4,7 @@
 
 #include "evaluation/flights/flight_perception.hpp"
 #include "evaluation/flights/projected_detector.hpp"
-#include "simulation/world.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
@@ -125,7 +125,7 @@ void Flight::calibrate(const simulation::CalibrationSample& sample) {
 
 void Flight::showReference() {
   geometry::Quadrilateral corners;
-  const cv::Mat image = world_.referenceImage(&corners);
+  const cv::Mat image = simulation::referenceImage(world_.scenario(), &corners);
   perception_.setReference(detection::ReferenceAppearance(image, corners));
 }
 

@@ -13,7 +13,7 @@ void tellVehicle(const simulation::World& world, const std::set<std::string>& sa
     if (said.count(std::string("vehicle/") + name) == 0) value = fact;
   };
   const auto camera = world.camera();
-  const Eigen::Vector3d half = world.vehicleHalfExtents();
+  const Eigen::Vector3d half = world.scenario().vehicle.halfExtents();
   tell("half_length_m", vehicle.half_length_m, half.x());
   tell("half_width_m", vehicle.half_width_m, half.y());
   tell("half_height_m", vehicle.half_height_m, half.z());

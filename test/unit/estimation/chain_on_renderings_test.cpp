@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "pose_fixtures.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/world.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
@@ -43,7 +44,7 @@ Errors measure(double distance_m, int images) {
     scenario.house.texture_seed = 1 + errors.images;
     simulation::World world(scenario, 1 + errors.images);
     geometry::Quadrilateral opening;
-    const cv::Mat reference = world.referenceImage(&opening);
+    const cv::Mat reference = simulation::referenceImage(world.scenario(), &opening);
     detector.setReference(detection::ReferenceAppearance(reference, opening));
     const auto frame = frameOf(world);
     const Eigen::Isometry3d& truth = frame.T_camera_window;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/world.hpp"
 #include "view.hpp"
@@ -104,7 +105,7 @@ TEST(ShippedScenarios, ThePosterShowsWhatTheReferenceImageShows) {
   const Scenario scenario = load("poster_only", 1);
   ASSERT_FALSE(scenario.window.present);
   geometry::Quadrilateral corners;
-  const cv::Mat reference = World(scenario, 1).referenceImage(&corners);
+  const cv::Mat reference = referenceImage(scenario, &corners);
   const auto camera = scenario.camera.model();
   const double distance_m = camera.fx * scenario.window.width_m / (corners[1].x() - corners[0].x());
   cv::Mat poster;
@@ -122,13 +123,13 @@ TEST(ShippedScenarios, ThePosterShowsWhatTheReferenceImageShows) {
 
 TEST(ShippedScenarios, TheReferenceShowsTheOpenTargetWhateverIsThereByNow) {
   const Scenario open = load("nominal", 4);
-  const cv::Mat expected = World(open, 4).referenceImage(nullptr);
+  const cv::Mat expected = referenceImage(open, nullptr);
   Scenario absent = open, closed = open, foggy = open;
   absent.window.present = false;
   closed.window.closed_by = "board";
   foggy.house.daylight.fog_m = 8.0;
   for (const Scenario& scenario : {absent, closed, foggy})
-    EXPECT_EQ(cv::norm(expected, World(scenario, 4).referenceImage(nullptr), cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(expected, referenceImage(scenario, nullptr), cv::NORM_INF), 0.0);
 }
 
 }  // namespace window_ingress::simulation::shipped_scenarios_test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "simulation/camera/reference_image.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation::world_test {
@@ -100,7 +101,7 @@ TEST(World, ReferenceImageShowsTheTargetSquareWithItsFrameOutsideTheCorners) {
   scenario.camera.k1 = -0.2;
   const World world(scenario, 1);
   geometry::Quadrilateral corners;
-  const cv::Mat image = world.referenceImage(&corners);
+  const cv::Mat image = referenceImage(world.scenario(), &corners);
   ASSERT_EQ(image.size(), cv::Size(640, 480));
   const double wide_px = corners[1].x() - corners[0].x(), high_px = corners[3].y() - corners[0].y();
   EXPECT_NEAR(wide_px / high_px, 1.2, 1e-9);
@@ -181,7 +182,7 @@ TEST(World, AVehicleThatHitsTheWallStopsThereAndFallsToTheGround) {
   EXPECT_EQ(verdict.outcome, Outcome::kCollision);
   EXPECT_EQ(verdict.reason.rfind("touched wall at", 0), 0u) << verdict.reason;
   EXPECT_LT(inWindow().x(), 0.0) << "outside, however long it is told to go on";
-  EXPECT_NEAR(world.truth().T_odom_base.translation().z(), world.vehicleHalfExtents().z(), 1e-6);
+  EXPECT_NEAR(world.truth().T_odom_base.translation().z(), world.scenario().vehicle.half_height_m, 1e-6);
   EXPECT_EQ(world.truth().velocity_odom_mps, Eigen::Vector3d::Zero().eval());
 }
 
