@@ -52,10 +52,6 @@ void Quadrotor::command(const VelocityCommand& command) {
   command_age_sec_ = 0.0;
 }
 
-void Quadrotor::step(double step_sec, const Eigen::Vector3d& wind_odom_mps) {
-  step(step_sec, {wind_odom_mps, Eigen::Vector3d::Zero()}, truth_.velocity_odom_mps);
-}
-
 void Quadrotor::step(double step_sec, const AirAtVehicle& air,
                      const Eigen::Vector3d& estimated_velocity_odom_mps) {
   command_age_sec_ += step_sec;

@@ -79,8 +79,6 @@ class Quadrotor {
   /// Moves on by `step_sec`. The controller sees `estimated_velocity_odom_mps` (axes of the true odom), not
   /// the truth.
   void step(double step_sec, const AirAtVehicle& air, const Eigen::Vector3d& estimated_velocity_odom_mps);
-  /// With a perfect estimate.
-  void step(double step_sec, const Eigen::Vector3d& wind_odom_mps);
 
   /// It hit something solid: it stops where it is, its motors stay off, and it falls until its centre is at
   /// `rest_height_m` (or on the ground). There is no way back.

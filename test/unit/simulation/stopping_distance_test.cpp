@@ -34,7 +34,7 @@ double travel(const std::string& profile, double speed_mps, double zeros_after_s
     const double dead_sec = now - kCruise_sec;
     if (dead_sec < 0.0) vehicle.command({Eigen::Vector3d(speed_mps, 0, 0), 0.0});
     if (zeros_after_sec >= 0.0 && dead_sec >= zeros_after_sec) vehicle.command({});
-    vehicle.step(kStep_sec, Eigen::Vector3d::Zero());
+    vehicle.step(kStep_sec, {}, vehicle.truth().velocity_odom_mps);
     const double x = vehicle.truth().T_odom_base.translation().x();
     if (dead_sec < 0.0) stop_m = x;
     furthest_m = std::max(furthest_m, x - stop_m);

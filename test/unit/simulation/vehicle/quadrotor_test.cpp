@@ -17,11 +17,16 @@ Quadrotor hovering(double yaw_rad = 0.0, const QuadrotorParams& params = {},
   return Quadrotor(params, geometry::makePose(geometry::yawRotation(yaw_rad), {0, 0, 2.0}), wind);
 }
 
+// Its velocity controller knows the true velocity.
+void step(Quadrotor& vehicle, const Eigen::Vector3d& wind = kStill) {
+  vehicle.step(kStep_sec, {wind, kStill}, vehicle.truth().velocity_odom_mps);
+}
+
 void fly(Quadrotor& vehicle, const VelocityCommand& command, double duration_sec,
          const Eigen::Vector3d& wind = kStill) {
   for (double t = 0.0; t < duration_sec; t += kStep_sec) {
     vehicle.command(command);
-    vehicle.step(kStep_sec, wind);
+    step(vehicle, wind);
   }
 }
 
@@ -106,7 +111,7 @@ TEST(Quadrotor, StopsWhenCommandsStopComing) {
   Quadrotor vehicle = hovering(0.0, params);
   fly(vehicle, {Eigen::Vector3d(1.0, 0, 0), 0.4}, 3.0);
   const auto coast = [&](double duration_sec) {
-    for (double t = 0.0; t < duration_sec; t += kStep_sec) vehicle.step(kStep_sec, kStill);
+    for (double t = 0.0; t < duration_sec; t += kStep_sec) step(vehicle);
   };
   coast(0.9 * params.command_timeout_sec);
   EXPECT_GT(vehicle.truth().velocity_odom_mps.x(), 0.95) << "the last setpoint still holds";
@@ -135,7 +140,7 @@ TEST(Quadrotor, NeverTiltsBeyondItsLimitByMuchUnderWildCommands) {
     const double sign = second % 2 == 0 ? 1.0 : -1.0;
     for (int i = 0; i < 400; ++i) {
       vehicle.command({Eigen::Vector3d(4.0 * sign, 3.0, -0.1 * sign), 2.0 * sign});
-      vehicle.step(kStep_sec, kStill);
+      step(vehicle);
       most_rad = std::max(most_rad, std::acos(vehicle.truth().T_odom_base.linear()(2, 2)));
     }
   }
@@ -192,7 +197,7 @@ TEST(Quadrotor, FallsWithAllItsEnergyLessWhatTheDragTakes) {
     double taken = 0.0;
     for (int i = 0; i < 1200; ++i) {
       const double speed_before = vehicle.truth().velocity_odom_mps.norm();
-      vehicle.step(kStep_sec, kStill);
+      step(vehicle);
       const double speed = 0.5 * (speed_before + vehicle.truth().velocity_odom_mps.norm());
       taken += drag_per_sec * speed * speed * kStep_sec;
     }
