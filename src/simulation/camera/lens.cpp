@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
@@ -45,25 +44,16 @@ IdealPixels idealPixels(const PinholeCamera& camera) {
   return ideal;
 }
 
-// Grows with the points that it shall hold.
-struct Bounds {
-  double left = std::numeric_limits<double>::infinity(), top = left, right = -left, bottom = -left;
-
-  void add(const cv::Vec2f& point) {
-    left = std::min<double>(left, point[0]), right = std::max<double>(right, point[0]);
-    top = std::min<double>(top, point[1]), bottom = std::max<double>(bottom, point[1]);
-  }
-  bool empty() const { return left > right; }
-};
+using Bounds = Eigen::AlignedBox2d;
 
 // Of the focal lengths of `ideal`, just large enough for `bounds`, which become its pixels less `origin`.
 PinholeCamera around(const Bounds& bounds, PinholeCamera ideal, cv::Vec2f& origin) {
-  const double x0 = std::floor(bounds.left) - kMargin_px, y0 = std::floor(bounds.top) - kMargin_px;
-  ideal.cx -= x0;
-  ideal.cy -= y0;
-  ideal.width = static_cast<int>(std::ceil(bounds.right) - x0) + kMargin_px + 1;
-  ideal.height = static_cast<int>(std::ceil(bounds.bottom) - y0) + kMargin_px + 1;
-  origin = {static_cast<float>(x0), static_cast<float>(y0)};
+  const Eigen::Vector2d first = bounds.min().array().floor() - kMargin_px;
+  ideal.cx -= first.x();
+  ideal.cy -= first.y();
+  ideal.width = static_cast<int>(std::ceil(bounds.max().x()) - first.x()) + kMargin_px + 1;
+  ideal.height = static_cast<int>(std::ceil(bounds.max().y()) - first.y()) + kMargin_px + 1;
+  origin = {static_cast<float>(first.x()), static_cast<float>(first.y())};
   return ideal;
 }
 
@@ -101,7 +91,7 @@ std::array<Bounds, kFaces> spreadOverCube(const PinholeCamera& ideal, const cv::
       point = {static_cast<float>(ideal.fx * seen.x() / seen.z() + ideal.cx),
                static_cast<float>(ideal.fy * seen.y() / seen.z() + ideal.cy)};
       face_of.at<unsigned char>(v, u) = static_cast<unsigned char>(face);
-      bounds[face].add(point);
+      bounds[face].extend(Eigen::Vector2d(point[0], point[1]));
     }
   return bounds;
 }
@@ -115,7 +105,7 @@ std::vector<IdealPlane> planesOfCube(const PinholeCamera& ideal, const cv::Mat& 
   std::array<cv::Vec2f, kFaces> origins;
   int rows = 0;
   for (std::size_t face = 0; face < kFaces; ++face) {
-    if (bounds[face].empty()) continue;
+    if (bounds[face].isEmpty()) continue;
     const PinholeCamera camera = around(bounds[face], ideal, origins[face]);
     planes.push_back({camera, faces[face], cv::Rect(0, rows, camera.width, camera.height)});
     origins[face][1] -= static_cast<float>(rows);
@@ -139,7 +129,8 @@ Lens::Lens(const PinholeCamera& camera) : size_(camera.width, camera.height) {
   }
   IdealPixels pixels = idealPixels(camera);
   Bounds bounds;
-  for (const auto& point : cv::Mat_<cv::Vec2f>(pixels.map)) bounds.add(point);
+  for (const auto& point : cv::Mat_<cv::Vec2f>(pixels.map))
+    bounds.extend(Eigen::Vector2d(point[0], point[1]));
   cv::Vec2f origin;
   const PinholeCamera whole = around(bounds, camera.withoutDistortion(), origin);
   if (whole.width <= 2 * camera.width && whole.height <= 2 * camera.height) {
