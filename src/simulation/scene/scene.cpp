@@ -19,6 +19,19 @@ bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
 constexpr double kDecoyFrameDepth_m = 0.02;
 constexpr double kPlinthHeight_m = 0.3, kPlinthDepth_m = 0.01;
 
+Rectangle openingOf(const DecoyParams& decoy) {
+  return Rectangle::around(decoy.y_m, decoy.z_m, decoy.width_m, decoy.height_m);
+}
+
+// Recesses and holes in the front wall.
+std::vector<Rectangle> wallHoles(const Scenario& scenario) {
+  std::vector<Rectangle> holes;
+  if (scenario.window.present) holes.push_back(targetOpening(scenario));
+  for (const auto& decoy : scenario.decoys) holes.push_back(openingOf(decoy));
+  for (const auto& door : scenario.doors) holes.push_back(openingOf(scenario, door));
+  return holes;
+}
+
 void addPlinth(const Scenario& scenario, const Rectangle& wall, Scene& scene) {
   const WindowParams& window = scenario.window;
   Rectangle plinth = wall;
@@ -33,6 +46,47 @@ Texture printOf(const PosterParams& poster) {
   return poster.look == "chessboard" ? Texture::kChessboard : Texture::kPoster;
 }
 
+void addFront(const Scenario& scenario, Scene& scene) {
+  const Rectangle wall = frontWall(scenario);
+  const double front_m = scenario.window.wallFront();
+  const Surface surface = painted(scenario.house.wall, wallTexture(scenario.house.wall_texture));
+  addWallFace(scene.mesh, front_m, true, wall, wallHoles(scenario), surface, eavesShadow(scenario, front_m));
+  addPlinth(scenario, wall, scene);
+  std::vector<Rectangle> holes = clearHoles(scenario);
+  if (scenario.window.present && !scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
+  addSolidWall(scene.obstacles, "wall", wall, holes, front_m, scene.opening_depth_m);
+}
+
+void addTarget(const Scenario& scenario, Scene& scene) {
+  const WindowParams& window = scenario.window;
+  if (!window.present) return;
+  const bool bare = window.frame_width_m <= 0.0;
+  const Texture inner = bare ? wallTexture(scenario.house.wall_texture) : Texture::kPlain;
+  addFitting(scenario,
+             {targetOpening(scenario), window.frame_width_m, 0.0, painted(window.frame),
+              painted(window.reveal, inner), window.surround, window.closed_by, window.bars, "frame",
+              window.closed_by, window.dirt},
+             scene);
+}
+
+void addDecoy(const Scenario& scenario, const DecoyParams& decoy, Scene& scene) {
+  const double front_m = std::min(0.0, scenario.window.wallFront() - kDecoyFrameDepth_m);
+  const Surface paint = painted(decoy.frame);
+  addFitting(scenario,
+             {openingOf(decoy), decoy.frame_width_m, front_m, paint, paint, decoy.surround, decoy.closed_by,
+              decoy.bars, "frame of another window", "closed window", 0.0},
+             scene);
+}
+
+void addPoster(const Scenario& scenario, const PosterParams& poster, Scene& scene) {
+  const Rectangle face = Rectangle::around(poster.y_m, poster.z_m, poster.width_m, poster.height_m);
+  const double wall_m = scenario.window.wallFront();
+  scene.mesh.addBox(box(wall_m - 0.004, wall_m, face), painted(poster.border));
+  const Rectangle picture =
+      face.grown(-std::min({poster.border_m, 0.4 * poster.width_m, 0.4 * poster.height_m}));
+  addPane(scene.mesh, wall_m - 0.008, picture, {printOf(poster), Eigen::Vector3d::Constant(255.0)});
+}
+
 }  // namespace
 
 Rectangle frontWall(const Scenario& scenario) {
@@ -42,10 +96,6 @@ Rectangle frontWall(const Scenario& scenario) {
 
 Rectangle targetOpening(const Scenario& scenario) {
   return Rectangle::around(0, 0, scenario.window.width_m, scenario.window.height_m);
-}
-
-Rectangle openingOf(const DecoyParams& decoy) {
-  return Rectangle::around(decoy.y_m, decoy.z_m, decoy.width_m, decoy.height_m);
 }
 
 Rectangle openingOf(const Scenario& scenario, const DoorParams& door) {
@@ -58,14 +108,6 @@ std::vector<Rectangle> clearHoles(const Scenario& scenario) {
   if (scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
   for (const auto& decoy : scenario.decoys)
     if (decoy.showsRoom()) holes.push_back(openingOf(decoy));
-  return holes;
-}
-
-std::vector<Rectangle> wallHoles(const Scenario& scenario) {
-  std::vector<Rectangle> holes;
-  if (scenario.window.present) holes.push_back(targetOpening(scenario));
-  for (const auto& decoy : scenario.decoys) holes.push_back(openingOf(decoy));
-  for (const auto& door : scenario.doors) holes.push_back(openingOf(scenario, door));
   return holes;
 }
 
@@ -123,47 +165,6 @@ Scenario asPhotographed(const Scenario& scenario) {
                                [&](const PosterParams& poster) { return reachesInto(poster, scenario); }),
                 posters.end());
   return expected;
-}
-
-void addFront(const Scenario& scenario, Scene& scene) {
-  const Rectangle wall = frontWall(scenario);
-  const double front_m = scenario.window.wallFront();
-  const Surface surface = painted(scenario.house.wall, wallTexture(scenario.house.wall_texture));
-  addWallFace(scene.mesh, front_m, true, wall, wallHoles(scenario), surface, eavesShadow(scenario, front_m));
-  addPlinth(scenario, wall, scene);
-  std::vector<Rectangle> holes = clearHoles(scenario);
-  if (scenario.window.present && !scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
-  addSolidWall(scene.obstacles, "wall", wall, holes, front_m, scene.opening_depth_m);
-}
-
-void addTarget(const Scenario& scenario, Scene& scene) {
-  const WindowParams& window = scenario.window;
-  if (!window.present) return;
-  const bool bare = window.frame_width_m <= 0.0;
-  const Texture inner = bare ? wallTexture(scenario.house.wall_texture) : Texture::kPlain;
-  addFitting(scenario,
-             {targetOpening(scenario), window.frame_width_m, 0.0, painted(window.frame),
-              painted(window.reveal, inner), window.surround, window.closed_by, window.bars, "frame",
-              window.closed_by, window.dirt},
-             scene);
-}
-
-void addDecoy(const Scenario& scenario, const DecoyParams& decoy, Scene& scene) {
-  const double front_m = std::min(0.0, scenario.window.wallFront() - kDecoyFrameDepth_m);
-  const Surface paint = painted(decoy.frame);
-  addFitting(scenario,
-             {openingOf(decoy), decoy.frame_width_m, front_m, paint, paint, decoy.surround, decoy.closed_by,
-              decoy.bars, "frame of another window", "closed window", 0.0},
-             scene);
-}
-
-void addPoster(const Scenario& scenario, const PosterParams& poster, Scene& scene) {
-  const Rectangle face = Rectangle::around(poster.y_m, poster.z_m, poster.width_m, poster.height_m);
-  const double wall_m = scenario.window.wallFront();
-  scene.mesh.addBox(box(wall_m - 0.004, wall_m, face), painted(poster.border));
-  const Rectangle picture =
-      face.grown(-std::min({poster.border_m, 0.4 * poster.width_m, 0.4 * poster.height_m}));
-  addPane(scene.mesh, wall_m - 0.008, picture, {printOf(poster), Eigen::Vector3d::Constant(255.0)});
 }
 
 }  // namespace window_ingress::simulation

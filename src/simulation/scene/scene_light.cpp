@@ -18,6 +18,15 @@ Vector3d towardsSun(const HouseParams& house) {
           std::sin(house.daylight.sun_elevation_rad)};
 }
 
+// Cuts `region` down to where the sun shines through a hole in the plane `x_m`.
+void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Vector3d& sun) {
+  const double aside = sun.y() / sun.x(), up = sun.z() / sun.x();  // of the sun's ray, for each metre of x
+  region.push_back({Vector3d(-aside, 1, 0), hole.left_m - aside * x_m});
+  region.push_back({Vector3d(aside, -1, 0), aside * x_m - hole.right_m});
+  region.push_back({Vector3d(-up, 0, 1), hole.top_m - up * x_m});
+  region.push_back({Vector3d(up, 0, -1), up * x_m - hole.bottom_m});
+}
+
 // The ground before the house, when the sun stands behind it.
 std::vector<HalfSpace> houseShadow(const Scenario& scenario, const Vector3d& sun) {
   std::vector<HalfSpace> region;
@@ -44,14 +53,6 @@ std::vector<HalfSpace> sunInRoom(const Scenario& scenario, const Vector3d& sun) 
 }
 
 }  // namespace
-
-void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Vector3d& sun) {
-  const double aside = sun.y() / sun.x(), up = sun.z() / sun.x();  // of the sun's ray, for each metre of x
-  region.push_back({Vector3d(-aside, 1, 0), hole.left_m - aside * x_m});
-  region.push_back({Vector3d(aside, -1, 0), aside * x_m - hole.right_m});
-  region.push_back({Vector3d(-up, 0, 1), hole.top_m - up * x_m});
-  region.push_back({Vector3d(up, 0, -1), up * x_m - hole.bottom_m});
-}
 
 double eavesShadow(const Scenario& scenario, double x_m) {
   const Vector3d sun = towardsSun(scenario.house);

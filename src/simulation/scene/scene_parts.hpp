@@ -43,8 +43,6 @@ Lighting daylight(const Scenario& scenario);
 Lighting roomLight(const Scenario& scenario);
 Lighting skyLight(const Scenario& scenario);
 std::optional<Fog> fogOf(const Scenario& scenario);
-/// Cuts `region` down to where the sun shines through a hole in the plane `x_m`.
-void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Eigen::Vector3d& sun);
 /// Height of the lower border of the shadow that the eaves throw on an upright plane.
 double eavesShadow(const Scenario& scenario, double x_m);
 /// Daylight on the inner faces of an opening whose front lies at `x_m`.
@@ -76,24 +74,16 @@ Rectangle frontWall(const Scenario& scenario);
 Rectangle roomWalls(const Scenario& scenario);
 Rectangle backWindow(const Scenario& scenario);
 Rectangle targetOpening(const Scenario& scenario);
-Rectangle openingOf(const DecoyParams& decoy);
 Rectangle openingOf(const Scenario& scenario, const DoorParams& door);
 /// Through which the room is seen: the target and other windows, if open or of clear glass.
 std::vector<Rectangle> clearHoles(const Scenario& scenario);
-/// Recesses and holes in the front wall.
-std::vector<Rectangle> wallHoles(const Scenario& scenario);
 
 // --- the parts
-void addFront(const Scenario& scenario, Scene& scene);
-void addTarget(const Scenario& scenario, Scene& scene);
-void addDecoy(const Scenario& scenario, const DecoyParams& decoy, Scene& scene);
 void addFitting(const Scenario& scenario, const Fitting& fitting, Scene& scene);
 void addDoor(const Scenario& scenario, const DoorParams& door, Scene& scene);
-void addPoster(const Scenario& scenario, const PosterParams& poster, Scene& scene);
 void addRoof(const Scenario& scenario, Scene& scene);
 void addGarden(Scene& scene);
 void addSky(const Scenario& scenario, Scene& scene);
 void addRoom(const Scenario& scenario, Scene& scene);
-void addFurniture(const Scenario& scenario, Scene& scene);
 
 }  // namespace window_ingress::simulation

@@ -159,8 +159,6 @@ void addGables(const Scenario& scenario, Scene& scene) {
   scene.mesh.addQuad({front_m, wall.left_m, wall.bottom_m}, up, deep, plaster);
 }
 
-}  // namespace
-
 void addFurniture(const Scenario& scenario, Scene& scene) {
   const Rectangle room = roomWalls(scenario);
   const Floor floor{room, scene.opening_depth_m, scene.opening_depth_m + scenario.house.room_depth_m,
@@ -172,6 +170,8 @@ void addFurniture(const Scenario& scenario, Scene& scene) {
   addTable(floor, scene);
   addRugAndLamp(floor, scene);
 }
+
+}  // namespace
 
 void addRoom(const Scenario& scenario, Scene& scene) {
   addGables(scenario, scene);
