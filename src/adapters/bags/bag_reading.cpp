@@ -182,7 +182,6 @@ std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, co
       if (pose == truth.end() || image.cols != camera.width || image.rows != camera.height) return true;
       auto sample = evaluation::labelled(image.clone(), pose->second, camera, opening);
       if (!sample) return true;
-      sample->name = std::to_string(header.stamp.toSec());
       sample->group = groupOf(bag, header.stamp);
       images.push_back(*sample);
       return true;

@@ -125,7 +125,7 @@ std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::
   std::vector<LabelledImage> samples;
   for (const auto& [file, targets] : Annotations(csv_file).targets()) {
     const std::string path = (std::filesystem::path(folder) / file).string();
-    samples.push_back({file, groupOf(file), imageOrNone(path), targets, std::nullopt});
+    samples.push_back({groupOf(file), imageOrNone(path), targets, std::nullopt});
     if (samples.back().image.empty())
       throw InputError(path + ": cannot be read as an image; " + csv_file + " names it");
   }

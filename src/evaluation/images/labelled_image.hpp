@@ -17,7 +17,6 @@ namespace window_ingress::evaluation {
 
 /// An image, and where the opening is in it.
 struct LabelledImage {
-  std::string name;   ///< for people
   std::string group;  ///< images that look alike, such as neighbours in a video, are of one group
   cv::Mat image;      ///< CV_8UC1 or CV_8UC3
   std::vector<geometry::Quadrilateral> targets;  ///< inner borders; any of them may be found; none: no window

@@ -22,7 +22,7 @@ std::vector<LabelledImage> images(int count, unsigned seed) {
         Eigen::Vector2d(left, top), {left + width, top}, {left + width, top + 100}, {left, top + 100}};
     window.frame_px = 9.0;
     window.seed = random();
-    result.push_back({std::to_string(i), std::to_string(i), window.draw(), {window.opening}, std::nullopt});
+    result.push_back({std::to_string(i), window.draw(), {window.opening}, std::nullopt});
   }
   return result;
 }
