@@ -177,7 +177,6 @@ std::optional<CameraFrame> World::takeFrame() {
 CameraFrame World::draw(const Exposure& exposure) {
   CameraFrame frame;
   frame.stamp_sec = exposure.stamp_sec;
-  frame.truth = exposure.truth;
   frame.T_camera_window = cameraInWindow(exposure).inverse();
   if (!camera_) return frame;
   const auto motion = CameraTruth::of(exposure.shown, T_odom_window_, T_base_camera_);

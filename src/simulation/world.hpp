@@ -28,7 +28,6 @@ struct CameraFrame {
   double stamp_sec = 0.0;  ///< of the exposure
   cv::Mat image;  ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`; empty: not drawn
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();  ///< truth at the exposure
-  VehicleTruth truth;
 };
 
 /// House, vehicle, sensors and referee of one scenario and seed. Deterministic: the same calls give the same

@@ -84,10 +84,10 @@ TEST(ExternalVehicle, IsSeenAndJudgedWhereItIsSaidToBe) {
     while (world.timeSec() + 0.5 * World::kStepSec < 0.02 * i) {
       world.advance();
       EXPECT_FALSE(world.takeOdometry() || world.takeImu() || world.takeTransform());
-      while (const auto frame = world.takeFrame()) {
+      while (const auto exposure = world.takeExposure()) {
         ++frames;
-        const double expected_m = std::min(stop_m, -5.0 + speed_mps * frame->stamp_sec);
-        const Eigen::Isometry3d T_window_base = T_odom_window.inverse() * frame->truth.T_odom_base;
+        const double expected_m = std::min(stop_m, -5.0 + speed_mps * exposure->stamp_sec);
+        const Eigen::Isometry3d T_window_base = T_odom_window.inverse() * exposure->truth.T_odom_base;
         EXPECT_NEAR(T_window_base.translation().x(), expected_m, 0.02);
       }
     }

@@ -42,12 +42,13 @@ TEST(Sway, MovesTheWindowAndWhatTheCameraSees) {
   while (world.timeSec() < 4.0) {
     world.advance();
     furthest_m = std::max(furthest_m, (world.T_odom_window().translation() - before).norm());
-    while (const auto frame = world.takeFrame()) {
+    while (const auto exposure = world.takeExposure()) {
       const Sway sway(scenario.sway, scenario.T_odom_window().linear());
       Eigen::Isometry3d T_odom_window = scenario.T_odom_window();
-      T_odom_window.translation() += sway.offsetOdom(frame->stamp_sec);
-      const Eigen::Isometry3d T_odom_camera = frame->truth.T_odom_base * world.T_base_camera();
-      EXPECT_TRUE(frame->T_camera_window.isApprox(T_odom_camera.inverse() * T_odom_window, 1e-9));
+      T_odom_window.translation() += sway.offsetOdom(exposure->stamp_sec);
+      const Eigen::Isometry3d T_odom_camera = exposure->truth.T_odom_base * world.T_base_camera();
+      EXPECT_TRUE(
+          world.draw(*exposure).T_camera_window.isApprox(T_odom_camera.inverse() * T_odom_window, 1e-9));
     }
   }
   EXPECT_NEAR(furthest_m, 0.1, 1e-3);
