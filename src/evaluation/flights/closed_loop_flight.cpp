@@ -74,7 +74,6 @@ class Flight {
 
  private:
   void sense();
-  void calibrate(const simulation::CalibrationSample& sample);
   void showReference();
   void look(const simulation::CameraFrame& frame);
   std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
@@ -114,13 +113,11 @@ void Flight::sense() {
     for (auto* observer : observers_) observer->onImu(*imu);
     perception_.addAttitude(imu->stamp_sec, imu->R_odom_base);
   }
-  while (const auto calibration = world_.takeCalibration()) calibrate(*calibration);
+  while (const auto calibration = world_.takeCalibration()) {
+    for (auto* observer : observers_) observer->onCalibration(*calibration);
+    perception_.calibrate(calibration->camera);
+  }
   if (const auto frame = world_.takeFrame()) look(*frame);
-}
-
-void Flight::calibrate(const simulation::CalibrationSample& sample) {
-  for (auto* observer : observers_) observer->onCalibration(sample);
-  perception_.calibrate(sample.camera);
 }
 
 void Flight::showReference() {

@@ -92,7 +92,7 @@ void checkStart(const Scenario& s, std::vector<std::string>& faults) {
 
 // So that there is thrust left to climb and to tilt.
 void checkPayload(const Scenario& s, std::vector<std::string>& faults) {
-  const double part = (1.0 + s.vehicle.thrust_gain_error) / (1.0 + s.vehicle.payload_kg / s.vehicle.mass_kg);
+  const double part = (1.0 + s.vehicle.thrust_gain_error) / s.vehicle.massRatio();
   if (part < 0.6) faults.push_back("vehicle/payload_kg: too heavy for its thrust");
 }
 
