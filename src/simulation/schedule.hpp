@@ -23,15 +23,11 @@ class Periodic {
   long count_ = 0;
 };
 
-/// Values on their way, first in first out: what goes in at t comes out at t + delay, and never before what
-/// went in before it.
+/// Values on their way, first in first out: none comes out before what went in before it.
 template <typename Value>
 class DelayLine {
  public:
-  explicit DelayLine(double delay_sec) : delay_sec_(delay_sec) {}
-  void push(double now_sec, Value value) { pushUntil(now_sec + delay_sec_, std::move(value)); }
-  /// With an arrival of its own.
-  void pushUntil(double arrival_sec, Value value) {
+  void push(double arrival_sec, Value value) {
     if (!waiting_.empty()) arrival_sec = std::max(arrival_sec, waiting_.back().first);
     waiting_.emplace_back(arrival_sec, std::move(value));
   }
@@ -50,7 +46,6 @@ class DelayLine {
   }
 
  private:
-  double delay_sec_;
   std::deque<std::pair<double, Value>> waiting_;
 };
 

@@ -74,7 +74,6 @@ World::World(const Scenario& scenario, std::uint32_t seed, Images images)
       commands_({RandomStream(seed, "cmd_vel garbage")}),
       shutter_(scenario_.camera.rate_hz),
       transport_(scenario_.camera, seed),
-      exposures_(scenario_.camera.latency_sec),
       referee_(courseOf(scenario_, scene_)) {}
 
 const VehicleTruth& World::truth() const { return external() ? followed_.truth() : quadrotor_.truth(); }
@@ -110,7 +109,7 @@ void World::sense() {
 
 void World::expose() {
   const Exposure exposure{exposure_count_++, time_sec_, truth(), besideHouse(), Exposure::Spoilt::kNot};
-  if (const auto arrival_sec = transport_.arrivalOf(time_sec_)) exposures_.pushUntil(*arrival_sec, exposure);
+  if (const auto arrival_sec = transport_.arrivalOf(time_sec_)) exposures_.push(*arrival_sec, exposure);
 }
 
 // In odom, where z = 0 is the ground.

@@ -44,7 +44,7 @@ class CameraSensor {
 class CameraTransport {
  public:
   CameraTransport(const CameraParams& params, std::uint32_t seed);
-  /// Of the next image, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::pushUntil` sees to it
+  /// Of the next image, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::push` sees to it
   /// that none overtakes another.
   std::optional<double> arrivalOf(double stamp_sec);
 

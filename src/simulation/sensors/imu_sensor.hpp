@@ -28,7 +28,6 @@ class ImuSensor {
       : params_(params),
         random_(seed, "imu"),
         periodic_(params.rate_hz),
-        delay_(params.latency_sec),
         tilt_rad_(random_.normals(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {
     RandomStream bias(seed, "imu bias");
     for (int axis = 0; axis < 3; ++axis) gyro_bias_radps_[axis] = bias.normal(params.gyro_bias_radps);
@@ -55,7 +54,7 @@ class ImuSensor {
         truth.angular_velocity_base_radps + gyro_bias_radps_ + random_.normals(params_.gyro_noise_radps);
     sample.specific_force_base_mps2 =
         specific_force_base_mps2 + random_.normals(params_.accelerometer_noise_mps2);
-    delay_.push(now_sec, sample);
+    delay_.push(now_sec + params_.latency_sec, sample);
   }
 
   /// The oldest sample that has arrived and was not taken; ask until there is none.

@@ -24,8 +24,6 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
       velocity_wander_random_(seed, "odometry velocity wander"),
       delivery_random_(seed, "odometry delivery"),
       periodic_(params.rate_hz),
-      delivery_(params.latency_sec),
-      own_velocity_(params.estimate_delay_sec),
       heading_error_rad_(params.heading_error_rad *
                          RandomStream(seed, "odometry heading error").uniform(-1.0, 1.0)),
       velocity_bias_base_mps_(drawBias(seed)) {
@@ -43,7 +41,7 @@ Eigen::Vector3d OdometrySensor::drawBias(std::uint32_t seed) const {
 }
 
 void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
-  own_velocity_.push(now_sec, truth.velocity_odom_mps);
+  own_velocity_.push(now_sec + params_.estimate_delay_sec, truth.velocity_odom_mps);
   if (const auto velocity = own_velocity_.takeLatest(now_sec)) delayed_velocity_mps_ = *velocity;
   if (!periodic_.due(now_sec)) return;
   const double height_m = std::max(0.0, truth.T_odom_base.translation().z());
@@ -91,7 +89,7 @@ void OdometrySensor::deliver(double now_sec, const OdometrySample& sample) {
       now_sec + params_.latency_sec + params_.jitter_sec * delivery_random_.uniform(0.0, 1.0);
   const double period_sec = params_.burst_period_sec;
   if (period_sec > 0.0) arrival_sec = std::ceil(arrival_sec / period_sec - 1e-9) * period_sec;
-  delivery_.pushUntil(arrival_sec, sample);
+  delivery_.push(arrival_sec, sample);
 }
 
 OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth) {

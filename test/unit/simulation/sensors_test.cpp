@@ -62,10 +62,10 @@ TEST(Schedule, PeriodsNeitherDriftNorDoubleUp) {
 }
 
 TEST(Schedule, DelayedValuesArriveInTimeAndInOrder) {
-  DelayLine<int> line(0.1);
-  line.push(0.0, 1);
-  line.push(0.05, 2);
-  line.push(0.2, 3);
+  DelayLine<int> line;
+  line.push(0.1, 1);
+  line.push(0.15, 2);
+  line.push(0.3, 3);
   EXPECT_FALSE(line.take(0.09));
   EXPECT_EQ(line.take(0.15), 1);
   EXPECT_EQ(line.take(0.15), 2);
@@ -75,19 +75,19 @@ TEST(Schedule, DelayedValuesArriveInTimeAndInOrder) {
 }
 
 TEST(Schedule, OfDelayedValuesTheLatestCanBeAskedFor) {
-  DelayLine<int> line(0.1);
+  DelayLine<int> line;
   EXPECT_FALSE(line.takeLatest(0.0));
-  line.push(0.0, 1);
-  line.push(0.05, 2);
-  line.push(0.2, 3);
+  line.push(0.1, 1);
+  line.push(0.15, 2);
+  line.push(0.3, 3);
   EXPECT_EQ(line.takeLatest(0.15), 2);
   EXPECT_FALSE(line.takeLatest(0.15));
 }
 
 TEST(Schedule, WhatLeftLaterNeverOvertakes) {
-  DelayLine<int> line(0.0);
-  line.pushUntil(0.5, 1);
-  line.pushUntil(0.2, 2);
+  DelayLine<int> line;
+  line.push(0.5, 1);
+  line.push(0.2, 2);
   EXPECT_FALSE(line.take(0.4));
   EXPECT_EQ(line.take(0.5), 1);
   EXPECT_EQ(line.take(0.5), 2);
