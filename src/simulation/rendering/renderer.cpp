@@ -272,15 +272,13 @@ struct Renderer::Impl {
   cv::Mat rgba;
 };
 
-Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing) {
-  requireUsable(camera);
-  impl_ = std::make_unique<Impl>(scene, camera, antialiasing, makeGlContext());
-}
+Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing)
+    : Renderer(scene, camera, antialiasing, nullptr) {}
 
 Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing,
                    std::unique_ptr<GlContext> context) {
   requireUsable(camera);
-  impl_ = std::make_unique<Impl>(scene, camera, antialiasing, std::move(context));
+  impl_ = std::make_unique<Impl>(scene, camera, antialiasing, context ? std::move(context) : makeGlContext());
 }
 
 Renderer::~Renderer() = default;
