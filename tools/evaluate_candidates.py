@@ -31,10 +31,7 @@ def fate(right):
 
 def evaluate(candidates, annotations, meta, leave_out, min_iou):
     """One record an image with a target."""
-    quads, of_image = collections.defaultdict(list), collections.defaultdict(list)
-    for row in annotations:
-        if row["x1"] and rules.is_target(row):
-            quads[row["file"]].append(rules.corners(row))
+    quads, of_image = rules.targets_of(annotations), collections.defaultdict(list)
     for row in candidates:
         of_image[os.path.basename(row["file"])].append(row)
     records = []

@@ -76,6 +76,15 @@ def is_target(row):
     return not row["label"].startswith("pose_only_") and not row["label"].endswith("_small")
 
 
+def targets_of(annotations):
+    """{file: quadrilaterals of its targets}"""
+    quads = collections.defaultdict(list)
+    for row in annotations:
+        if row["x1"] and is_target(row):
+            quads[row["file"]].append(corners(row))
+    return quads
+
+
 def half_of(scene, name):
     """"tune" or "report"."""
     stem = os.path.splitext(os.path.basename(name))[0]
@@ -89,10 +98,7 @@ def only(records, half):
 
 def evaluate(detections, annotations, meta, leave_out, min_iou):
     """One record an image: scene, tier, whether it holds a target, detected, overlap with the best target."""
-    quads = collections.defaultdict(list)
-    for row in annotations:
-        if row["x1"] and is_target(row):
-            quads[row["file"]].append(corners(row))
+    quads = targets_of(annotations)
     hard = {row["file"] for row in annotations if row["label"] == "negative_hard"}
     records = []
     for row in detections:

@@ -128,17 +128,13 @@ def sheet(photographs, records, path):
     import cv2  # needed here only
     import numpy
 
-    annotated = {}
-    for row in photographs.annotations:
-        if row["x1"] and rules.is_target(row):
-            annotated.setdefault(row["file"], []).append(rules.corners(row))
-    cells = []
+    annotated, cells = rules.targets_of(photographs.annotations), []
     for r in rules.wrong(records):
         image = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
         scale = min(CELL[0] / image.shape[1], CELL[1] / image.shape[0])
         small = cv2.resize(image, None, fx=scale, fy=scale,
                            interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
-        for quad, colour in [(q, (255, 255, 255)) for q in annotated.get(r["file"], [])] + [(r["found"], (0, 0, 255))]:
+        for quad, colour in [(q, (255, 255, 255)) for q in annotated[r["file"]]] + [(r["found"], (0, 0, 255))]:
             if quad:
                 points = numpy.array([[(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5] for x, y in quad])
                 cv2.polylines(small, [numpy.round(points * 16).astype(numpy.int32)], True, colour, 1, cv2.LINE_AA, 4)

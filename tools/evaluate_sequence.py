@@ -28,10 +28,6 @@ def corner_errors(found, truth):
     return min(([distance(p, q) for p, q in zip(quad, truth)] for quad in turned), key=sum)
 
 
-def whole(row):
-    return row["detected"] == "1" and all(row[f"x{i}"] for i in range(1, 5))
-
-
 def quantile(values, fraction):
     values = sorted(values)
     return values[min(len(values) - 1, int(fraction * len(values)))] if values else float("nan")
@@ -41,7 +37,7 @@ def score(detections, truth):
     """Per frame: (tracked, corner errors or None, target number)."""
     frames = []
     for found, true in zip(detections, truth):
-        quad, known = (rules.corners(found) if whole(found) else None), rules.corners(true)
+        quad, known = (rules.corners(found) if found["detected"] == "1" else None), rules.corners(true)
         tracked = quad is not None and rules.iou(quad, known) >= rules.SAME_IOU
         frames.append((tracked, corner_errors(quad, known) if tracked else None, found.get("target_id", "")))
     return frames
