@@ -1,5 +1,4 @@
-#include "simulation/rendering/egl_context.hpp"
-
+#include "simulation/rendering/gl_context.hpp"
 #include "window_ingress/text/text.hpp"
 
 #define EGL_NO_X11  // some systems' headers include X11 without it
@@ -32,32 +31,41 @@ EGLDisplay theDisplay() {
   return display;
 }
 
+// Without any surface: it needs neither a display nor a graphics card.
+class EglContext : public GlContext {
+ public:
+  EglContext() {
+    chooseDriver();
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with what OpenGL had before
+    const EGLDisplay display = theDisplay();
+    context_ = eglBindAPI(EGL_OPENGL_API)
+                   ? eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)
+                   : EGL_NO_CONTEXT;
+    if (context_ == EGL_NO_CONTEXT) fail("gives no OpenGL context");
+    try {
+      const CurrentContext current(*this);
+      load(eglGetProcAddress);
+    } catch (...) {
+      eglDestroyContext(display, context_);
+      throw;
+    }
+  }
+
+  ~EglContext() override { eglDestroyContext(theDisplay(), context_); }
+
+  void makeCurrent() override {
+    if (!eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+      fail("refuses to make its context current");
+  }
+
+  void release() override { eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+ private:
+  EGLContext context_;
+};
+
 }  // namespace
 
-EglContext::EglContext() {
-  chooseDriver();
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with what OpenGL had before
-  const EGLDisplay display = theDisplay();
-  context_ = eglBindAPI(EGL_OPENGL_API)
-                 ? eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)
-                 : EGL_NO_CONTEXT;
-  if (context_ == EGL_NO_CONTEXT) fail("gives no OpenGL context");
-  try {
-    const CurrentContext current(*this);
-    load(eglGetProcAddress);
-  } catch (...) {
-    eglDestroyContext(display, context_);
-    throw;
-  }
-}
-
-EglContext::~EglContext() { eglDestroyContext(theDisplay(), context_); }
-
-void EglContext::makeCurrent() {
-  if (!eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    fail("refuses to make its context current");
-}
-
-void EglContext::release() { eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+std::unique_ptr<GlContext> makeEglContext() { return std::make_unique<EglContext>(); }
 
 }  // namespace window_ingress::simulation

@@ -5,12 +5,6 @@
 #include <string>
 #include <type_traits>
 
-#ifdef WINDOW_INGRESS_OFFSCREEN_EGL
-#include "simulation/rendering/egl_context.hpp"
-#else
-#include "simulation/rendering/osmesa_context.hpp"
-#endif
-
 namespace window_ingress::simulation {
 
 // No threads of Mesa's own: flights run side by side in processes or threads already.
@@ -38,9 +32,9 @@ void GlContext::load(Function (*find)(const char* name)) {
 
 std::unique_ptr<GlContext> makeGlContext() {
 #ifdef WINDOW_INGRESS_OFFSCREEN_EGL
-  return std::make_unique<EglContext>();
+  return makeEglContext();
 #else
-  return std::make_unique<OsmesaContext>();
+  return makeOsmesaContext();
 #endif
 }
 

@@ -35,8 +35,12 @@ class GlContext {
 };
 
 /// By the library that the package was configured with.
-/// \throws std::runtime_error if it gives no context
+/// \throws std::runtime_error, as the others, if there is none, or none drawn by llvmpipe
 std::unique_ptr<GlContext> makeGlContext();
+/// By OSMesa, which Mesa has up to version 25.0. Of this one and the next the library has the one that was
+/// configured.
+std::unique_ptr<GlContext> makeOsmesaContext();
+std::unique_ptr<GlContext> makeEglContext();  ///< by Mesa's EGL
 
 /// Keeps a context current in this thread.
 class CurrentContext {

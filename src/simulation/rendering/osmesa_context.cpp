@@ -1,7 +1,10 @@
-#include "simulation/rendering/osmesa_context.hpp"
+#include <GL/osmesa.h>
 
+#include <array>
 #include <mutex>
 #include <stdexcept>
+
+#include "simulation/rendering/gl_context.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -31,29 +34,43 @@ void destroy(OSMesaContext context) {
   OSMesaDestroyContext(context);
 }
 
+class OsmesaContext : public GlContext {
+ public:
+  OsmesaContext() {
+    {
+      const std::lock_guard<std::mutex> lock(contextMutex());
+      chooseDriver();
+      context_ = create();
+    }
+    if (!context_) throw std::runtime_error("OSMesa gives no OpenGL context; is libosmesa6 installed?");
+    try {
+      makeCurrent();
+      load(OSMesaGetProcAddress);
+    } catch (...) {
+      destroy(context_);
+      throw;
+    }
+  }
+
+  ~OsmesaContext() override { destroy(context_); }
+
+  void makeCurrent() override {
+    if (!OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummySize_px, kDummySize_px))
+      throw std::runtime_error("OSMesa refuses to make its context current");
+  }
+
+  void release() override {}  // OSMesa takes a context that is current elsewhere
+
+ private:
+  // Images are drawn into framebuffer objects; OSMesa wants a buffer all the same.
+  static constexpr int kDummySize_px = 16;
+
+  OSMesaContext context_ = nullptr;
+  std::array<unsigned char, 4 * kDummySize_px * kDummySize_px> dummy_{};
+};
+
 }  // namespace
 
-OsmesaContext::OsmesaContext() {
-  {
-    const std::lock_guard<std::mutex> lock(contextMutex());
-    chooseDriver();
-    context_ = create();
-  }
-  if (!context_) throw std::runtime_error("OSMesa gives no OpenGL context; is libosmesa6 installed?");
-  try {
-    makeCurrent();
-    load(OSMesaGetProcAddress);
-  } catch (...) {
-    destroy(context_);
-    throw;
-  }
-}
-
-OsmesaContext::~OsmesaContext() { destroy(context_); }
-
-void OsmesaContext::makeCurrent() {
-  if (!OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummySize_px, kDummySize_px))
-    throw std::runtime_error("OSMesa refuses to make its context current");
-}
+std::unique_ptr<GlContext> makeOsmesaContext() { return std::make_unique<OsmesaContext>(); }
 
 }  // namespace window_ingress::simulation

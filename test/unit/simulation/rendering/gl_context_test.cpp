@@ -7,10 +7,6 @@
 
 #include "../view.hpp"
 #include "simulation/scenario/scenario.hpp"
-#ifdef WINDOW_INGRESS_WITH_OSMESA_AND_EGL
-#include "simulation/rendering/egl_context.hpp"
-#include "simulation/rendering/osmesa_context.hpp"
-#endif
 
 namespace window_ingress::simulation::gl_context_test {
 
@@ -26,8 +22,8 @@ TEST(GlContext, AnotherThreadTakesOver) {
 #ifdef WINDOW_INGRESS_WITH_OSMESA_AND_EGL
 void expectTheSame(const Scene& scene, Antialiasing antialiasing) {
   const auto camera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2);
-  Renderer by_osmesa(scene, camera, antialiasing, std::make_unique<OsmesaContext>());
-  Renderer by_egl(scene, camera, antialiasing, std::make_unique<EglContext>());
+  Renderer by_osmesa(scene, camera, antialiasing, makeOsmesaContext());
+  Renderer by_egl(scene, camera, antialiasing, makeEglContext());
   cv::Mat osmesa, egl;
   for (const Eigen::Vector3d& from :
        {Eigen::Vector3d(-6, -2, 0.4), Eigen::Vector3d(-3, 0.5, 0.0), Eigen::Vector3d(-0.8, 0.1, -0.1)}) {
