@@ -99,12 +99,10 @@ std::optional<double> meanNees(const std::vector<FilterSample>& samples) {
 }
 
 // Sums of chi squared numbers are chi squared; by Wilson and Hilferty its cube root is nearly normal.
-Band chiSquaredBand(int degrees_of_freedom, int count) {
+Interval chiSquaredBand(int degrees_of_freedom, int count) {
   const double n = static_cast<double>(degrees_of_freedom) * count, spread = std::sqrt(2.0 / (9.0 * n));
-  const auto quantile = [&](double normal) {
-    return n * std::pow(1.0 - spread * spread + normal * spread, 3);
-  };
-  return {quantile(-1.96) / count, quantile(1.96) / count};
+  const auto bound = [&](double normal) { return n * std::pow(1.0 - spread * spread + normal * spread, 3); };
+  return {bound(-1.96) / count, bound(1.96) / count};
 }
 
 }  // namespace window_ingress::evaluation

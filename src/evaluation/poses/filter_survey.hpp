@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evaluation/poses/synthetic_approach.hpp"
+#include "evaluation/statistics.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::evaluation {
@@ -42,9 +43,6 @@ std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::Target
 std::optional<double> meanNees(const std::vector<FilterSample>& samples);
 
 /// 95 % band of a mean of `count` independent chi squared numbers.
-struct Band {
-  double low, high;
-};
-Band chiSquaredBand(int degrees_of_freedom, int count);
+Interval chiSquaredBand(int degrees_of_freedom, int count);
 
 }  // namespace window_ingress::evaluation

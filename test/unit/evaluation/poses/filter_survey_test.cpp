@@ -12,7 +12,7 @@
 namespace window_ingress::evaluation::filter_survey_test {
 
 TEST(FilterSurvey, BandOfChiSquaredAgreesWithTables) {
-  const Band one = chiSquaredBand(4, 1), many = chiSquaredBand(4, 200);
+  const Interval one = chiSquaredBand(4, 1), many = chiSquaredBand(4, 200);
   EXPECT_NEAR(one.low, 0.484, 0.05);
   EXPECT_NEAR(one.high, 11.143, 0.05);
   EXPECT_NEAR(many.low, 3.62, 0.01);
@@ -35,7 +35,7 @@ TEST(FilterSurvey, NormalisedErrorOfTwoHundredApproachesLiesInItsBand) {
     end += samples.back().nees;
     ++runs;
   }
-  const Band band = chiSquaredBand(4, runs);
+  const Interval band = chiSquaredBand(4, runs);
   std::printf("NEES over %d approaches: %.2f, at their ends %.2f; band %.2f .. %.2f\n", runs, sum / runs,
               end / runs, band.low, band.high);
   EXPECT_GT(sum / runs, band.low);
