@@ -4,7 +4,7 @@ import collections
 import json
 import sys
 
-CORE = ["geometry", "parameters", "detection", "openness", "pose", "facade", "navigation"]
+CORE = ["geometry", "parameters", "detection", "openness", "estimation", "facade", "navigation"]
 LEAST = 90.0
 
 

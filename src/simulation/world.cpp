@@ -29,7 +29,7 @@ WallInAir wallOf(const Scenario& scenario, const Scene& scene) {
   WallInAir wall;
   wall.open = scene.opening.has_value();
   wall.opening = scenario.opening();
-  wall.front_x_m = scenario.window.frame_depth_m;
+  wall.front_x_m = scenario.window.wallFront();
   wall.back_x_m = scene.opening_depth_m;
   wall.half_width_m = 0.5 * scenario.house.width_m;
   wall.ground_z_m = scene.ground_z_m;

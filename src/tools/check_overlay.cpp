@@ -28,7 +28,7 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, odom_frame, needs_package, needs_display, scenario, launch_folder, record;
+      image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, launch_folder, record;
 };
 
 tools::OptionList describe(Options& o) {
@@ -51,6 +51,7 @@ tools::OptionList describe(Options& o) {
   add("image-transport", o.image_transport, "by which images come");
   add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
+  add("flown-by", o.flown_by, "parameter file whose sizes are compared with the simulated world's");
   add("record", o.record, "bag file to be written; refused if it is there");
   add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
   add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
@@ -243,6 +244,16 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
+// What is wrong with the parameter file is said where it is loaded.
+void checkScenario(const Options& o) {
+  const auto scenario = simulation::loadScenario(o.scenario, 1);
+  configuration::Overlay overlay;
+  if (given(o.flown_by).empty() ||
+      !tools::InputFaults().collect([&] { overlay = configuration::readOverlay(given(o.flown_by)); }))
+    return;
+  if (const std::string other = tools::otherSizes(overlay, scenario); !other.empty()) tools::warn(other);
+}
+
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
@@ -257,7 +268,7 @@ int check(const Options& o) {
   });
   if (is_read) checkOverlay(o, file, overlay, faults);
   faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
-  if (!o.scenario.empty()) faults.collect([&] { simulation::loadScenario(o.scenario, 1); });
+  if (!o.scenario.empty()) faults.collect([&] { checkScenario(o); });
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.throwIfAny();
   std::cout << file << "\n";

@@ -11,6 +11,7 @@
 #include "evaluation/flights/campaign.hpp"
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "evaluation/flights/flight_table.hpp"
+#include "size_checks.hpp"
 
 namespace window_ingress::tools {
 
@@ -100,7 +101,11 @@ inline FlyJob jobOf(const FlyOptions& o) {
   checkOutput(job);
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
-  if (!o.params.empty()) job.params = {configuration::readOverlay(o.params)};
+  if (!o.params.empty()) {
+    job.params = {configuration::readOverlay(o.params)};
+    const std::string other = otherSizes(job.params, job.scenario(job.seeds.front()));
+    if (!other.empty()) std::cerr << "fly: warning: " << other << "\n";
+  }
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(o.output);

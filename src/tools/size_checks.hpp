@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -55,6 +57,31 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
                 "measure it, propellers included, and say in the file of config:= vehicle: "
                 "{half_length_m: L, half_width_m: W, half_height_m: H}",
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
+}
+
+/// Where the file says another vehicle or opening than the simulated world has; empty: nowhere.
+inline std::string otherSizes(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
+  const auto differs = [&](const char* key, double said, double fact) {
+    return overlay.said.count(key) != 0 && std::abs(said - fact) > 1e-6;
+  };
+  const auto opening = scenario.opening();
+  const Eigen::Vector3d half = scenario.vehicle.halfExtents();
+  const auto& vehicle = overlay.vehicle;
+  const auto& pose = overlay.homography_pose.pose;
+  std::string text;
+  if (differs("vehicle/half_width_m", vehicle.half_width_m, half.y()) ||
+      differs("vehicle/half_height_m", vehicle.half_height_m, half.z()))
+    text += formatted("a vehicle of %g x %g m, the world has %g x %g m", 2.0 * vehicle.half_width_m,
+                      2.0 * vehicle.half_height_m, 2.0 * half.y(), 2.0 * half.z());
+  if (differs("homography_pose/pose/opening_width_m", pose.opening_width_m, opening.width_m) ||
+      differs("homography_pose/pose/opening_height_m", pose.opening_height_m, opening.height_m))
+    text += (text.empty() ? "" : "; ") + formatted("an opening of %g x %g m, the world has %g x %g m",
+                                                   pose.opening_width_m, pose.opening_height_m,
+                                                   opening.width_m, opening.height_m);
+  return text.empty() ? ""
+                      : "the file says " + text +
+                            ": it is flown by the file and judged by the world; "
+                            "give a scenario with your sizes (window, vehicle)";
 }
 
 inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {

@@ -162,6 +162,15 @@ def test_what_flies_without_saying_sizes_is_told_by_which_it_flies(tmp_path):
         assert done.returncode == 0 and "warning" not in done.stderr, done.stderr
 
 
+def test_a_simulated_flight_says_where_the_file_has_other_sizes_than_the_world(tmp_path):
+    config = tmp_path / "drone.yaml"
+    config.write_text("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.0}}\n")
+    done = run("roslaunch", "--nodes", ROOT / "launch/sim.launch", f"config:={config}")
+    assert done.returncode == 0 and "the file says an opening of 1.3 x 1 m, the world has 1.2 x 1 m: it is flown by the file" in done.stderr
+    config.write_text("homography_pose: {pose: {opening_width_m: 1.2, opening_height_m: 1.0}}\n")
+    assert "the world has" not in run("roslaunch", "--nodes", ROOT / "launch/sim.launch", f"config:={config}").stderr
+
+
 @pytest.mark.parametrize("text, is_said", [
     ("{}", False), ("vehicle: {half_width_m: 0.3}", False), ("homography_pose: {pose: {opening_width_m: 1.3}}", False),
     ("homography_pose: {odom_wait_sec: 0.1}", False), ("homography_pose: {pose: {scale_sigma: 0.0}}", False),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +26,20 @@ std::optional<double> numberIfAny(const CsvReader& row, std::size_t column) {
   return row.number(column);
 }
 
-std::uint32_t seedOf(const CsvReader& row) { return static_cast<std::uint32_t>(row.number(0)); }
+std::uint32_t seedOf(const CsvReader& row) {
+  constexpr double kMax = std::numeric_limits<std::uint32_t>::max();
+  const double seed = row.number(0);
+  if (!(seed >= 0.0 && seed <= kMax && seed == std::floor(seed)))
+    row.fail("seed '" + row.text(0) + "' is no whole number from 0 to 4294967295");
+  return static_cast<std::uint32_t>(seed);
+}
+
+double quantileOf(const CsvReader& row, std::size_t column) {
+  const double quantile = row.number(column);
+  if (!(quantile >= 0.0 && quantile <= 1.0))
+    row.fail(row.columns()[column] + " '" + row.text(column) + "' is not from 0 to 1");
+  return quantile;
+}
 
 Outcome outcomeOf(const CsvReader& row) {
   const std::string name = row.text(1);
@@ -172,7 +186,7 @@ FlightDraws readDraws(const std::string& file) {
   while (rows.nextWhole()) {
     const auto [draw, is_new] = draws.try_emplace(seedOf(rows));
     if (!is_new) rows.fail("seed " + rows.text(0) + " stands there twice");
-    for (std::size_t i = 1; i < keys.size(); ++i) draw->second[keys[i]] = rows.number(i);
+    for (std::size_t i = 1; i < keys.size(); ++i) draw->second[keys[i]] = quantileOf(rows, i);
   }
   return draws;
 }

@@ -119,6 +119,10 @@ TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
   EXPECT_TRUE(test::says(errorOf("wind/x_mps\n0.5\n"), "must begin with 'seed'"));
   EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n"), ":3: seed 3 stands there twice"));
   EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3\n"), ":2: "));
+  for (const char* quantile : {"nan", "1.5", "-0.1"})
+    EXPECT_TRUE(test::says(errorOf(std::string("seed,wind/x_mps\n3,") + quantile), "is not from 0 to 1"));
+  for (const char* seed : {"-1", "0.5", "nan", "1e10"})
+    EXPECT_TRUE(test::says(errorOf(std::string("seed,wind/x_mps\n") + seed + ",0.5"), "is no whole number"));
 }
 
 }  // namespace window_ingress::evaluation::flight_table_test
