@@ -141,10 +141,7 @@ std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
 }
 
 PoseResult TargetEstimator::estimate(const ObservedImage& image) {
-  PoseHints hints;
-  hints.gravity = gravity(image);
-  hints.size = filter_.sizeOf(*image.window);
-  return estimator_.estimate(*image.window, image.camera, hints);
+  return estimator_.estimate(*image.window, image.camera, {gravity(image), filter_.sizeOf(*image.window)});
 }
 
 // What was found out about the size belongs to the window it was found out of.

@@ -32,13 +32,8 @@ double apparentLength(const geometry::PinholeCamera& camera, double range_m, con
   return 2.0 * range_m * std::tan(0.5 * std::atan2(a.cross(b).norm(), a.dot(b)));
 }
 
-CornerVector cornersOf(const RefinementProblem& problem, const PlanarSolution& best) {
-  if (problem.image.hasCorners()) return problem.image.cornersPx();
-  return predictOpening(problem.camera, best.T_camera_window, best.opening)->corners_px;
-}
-
 void describeSides(const RefinementProblem& problem, WindowPoseEstimate& out) {
-  const CornerVector corners = cornersOf(problem, out.best);
+  const CornerVector& corners = problem.image.cornersPx();
   const Eigen::Vector2d top_left = corners.segment<2>(0), top_right = corners.segment<2>(2),
                         bottom_right = corners.segment<2>(4), bottom_left = corners.segment<2>(6);
   const double range = out.best.T_camera_window.translation().norm();
@@ -66,7 +61,7 @@ WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSoluti
   WindowPoseEstimate out;
   out.best = solutions.best;
   out.alternative = solutions.alternative;
-  const double misfit = misfitOf(problem, out.best);
+  const double misfit = misfitOf(out.best);
   widen(misfit, out.best);
   if (out.alternative) widen(misfit, *out.alternative);
   out.opening = out.best.opening;
@@ -80,7 +75,7 @@ WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSoluti
   RefinementProblem fitted = problem;
   fitted.opening = out.opening;
   out.sigma_u_rad = std::min(M_PI, yawSigmaOfUnknownSize(fitted, T, yaw) * std::sqrt(misfit));
-  if (problem.image.hasCorners()) out.aspect = measureAspect(problem);
+  out.aspect = measureAspect(problem);
   out.euler = geometry::eulerFromRotation(geometry::R_optical_flu().transpose() * T.linear());
   describeSides(problem, out);
   judgeSign(misfit, out);
@@ -142,7 +137,6 @@ ImageNoise noiseOf(const PoseParams& params) {
 PoseHints usable(const PoseHints& given) {
   PoseHints hints = given;
   if (hints.gravity && !isUsable(*hints.gravity)) hints.gravity.reset();
-  if (hints.prior && !isUsable(*hints.prior)) hints.prior.reset();
   if (hints.size && !isUsable(*hints.size)) hints.size.reset();
   return hints;
 }
@@ -162,20 +156,12 @@ WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params) : params_(par
 
 PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& window,
                                          const geometry::PinholeCamera& camera,
-                                         const std::optional<GravityPrior>& gravity) const {
-  PoseHints hints;
-  hints.gravity = gravity;
-  return estimate(window, camera, hints);
-}
-
-PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& window,
-                                         const geometry::PinholeCamera& camera,
                                          const PoseHints& given) const {
   const auto camera_faults = camera.validate();
   if (!camera_faults.empty()) return rejected(PoseReject::kBadCamera, parameters::joined(camera_faults));
   if (!std::isfinite(window.stamp_sec)) return rejected(PoseReject::kNotFinite, "the stamp is not finite");
   const PoseHints hints = usable(given);
-  const std::string fault = faultOfCorners(window, camera, hints.prior.has_value());
+  const std::string fault = faultOfCorners(window, camera);
   if (!fault.empty()) return rejected(PoseReject::kBadCorners, fault);
 
   const Eigen::Vector3d up =
@@ -188,7 +174,7 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   const geometry::OpeningSize stated{params_.opening_width_m, params_.opening_height_m};
   const SizeEstimate size =
       hints.size ? *hints.size : sizeEstimate(stated, params_.scale_sigma, params_.aspect_sigma);
-  const RefinementProblem problem{*image, camera, size.size, hints.gravity, hints.prior, rootOf(size)};
+  const RefinementProblem problem{*image, camera, size.size, hints.gravity, rootOf(size)};
   const auto solutions = planarSolutions(problem);
   if (!solutions)
     return rejected(PoseReject::kNotInFront, "no pose in front of the camera explains the corners");

@@ -50,7 +50,7 @@ class Pose : public benchmark::Fixture {
     const estimation::WindowPoseEstimator estimator(params);
     const estimation::GravityPrior gravity{{0.0, -1.0, 0.0}, 0.02};
     run(state, [&](const auto& view) {
-      return estimator.estimate(view, setup.camera, gravity).estimate.has_value();
+      return estimator.estimate(view, setup.camera, {gravity}).estimate.has_value();
     });
   }
 

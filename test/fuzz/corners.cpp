@@ -96,7 +96,7 @@ void corners(const std::uint8_t* data, std::size_t size) {
     const auto window = adapters::fromMsg(anyDetection(bytes, stamp_sec));
     require(window.value.has_value() == window.reason.empty(), "an observation or a reason");
     if (!window) continue;
-    check(estimator.estimate(*window.value, camera, anyGravity(bytes)));
+    check(estimator.estimate(*window.value, camera, {anyGravity(bytes)}));
     if (!filtered || !camera.validate().empty()) continue;
     const Eigen::Isometry3d T_odom_base =
         geometry::makePose(geometry::yawRotation(bytes.number(-0.2, 0.2)),

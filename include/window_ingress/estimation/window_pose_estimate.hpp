@@ -16,9 +16,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct PlanarSolution {
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< in the camera frame
-  /// Per coordinate, of the four corners; of a partial view: across, at the ends of the borders seen.
-  double reprojection_rms_px = 0.0;
-  /// Half the sum of squared, sigma-weighted residuals of the image and of the priors but gravity's.
+  double reprojection_rms_px = 0.0;        ///< per coordinate, of the four corners
+  /// Half the sum of squared, sigma-weighted residuals of the image and of the size.
   double cost = 0.0;
   geometry::OpeningSize opening;                                     ///< the size at which it fits best
   Eigen::Matrix2d opening_log_covariance = Eigen::Matrix2d::Zero();  ///< of (log width, log height)

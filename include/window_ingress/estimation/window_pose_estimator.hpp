@@ -4,8 +4,8 @@
 #include <string>
 
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/estimation/gravity_prior.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
-#include "window_ingress/estimation/pose_prior.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -35,9 +35,6 @@ struct PoseResult {
 /// What else may be known of the window when an image of it is taken. What is not usable is ignored.
 struct PoseHints {
   std::optional<GravityPrior> gravity = std::nullopt;
-  /// Where it is expected; with it two or three visible sides give a pose. Its own errors must not come from
-  /// this image.
-  std::optional<PosePrior> prior = std::nullopt;
   std::optional<SizeEstimate> size = std::nullopt;  ///< instead of the parameters' size
 };
 
@@ -48,13 +45,9 @@ class WindowPoseEstimator {
   explicit WindowPoseEstimator(const PoseParams& params);
 
   /// \param window its corners in any cyclic order (they are put upright: by gravity, without it by the
-  ///        camera's own up); or, of a partial view, four visible borders, or two with a prior pose
+  ///        camera's own up); or, of a partial view, four visible borders
   PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                      const PoseHints& hints) const;
-
-  /// \param gravity ignored if it is not usable (not finite, no direction, no spread)
-  PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                      const std::optional<GravityPrior>& gravity = std::nullopt) const;
+                      const PoseHints& hints = {}) const;
 
   const PoseParams& params() const { return params_; }
 

@@ -29,11 +29,6 @@ bool bordersAreUsable(const detection::WindowObservation& window) {
   });
 }
 
-long visibleCount(const detection::WindowObservation& window) {
-  return std::count_if(window.edges.begin(), window.edges.end(),
-                       [](const auto& edge) { return edge.visible; });
-}
-
 }  // namespace
 
 double marginalVariance(double white, double systematic, const ImageNoise& noise) {
@@ -53,7 +48,7 @@ std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowOb
     slopes[i] = undistortionSlope(camera, measurement.corners_px_.segment<2>(2 * i));
     if (!measurement.corners_px_.segment<2>(2 * i).allFinite() || !slopes[i].allFinite()) return std::nullopt;
   }
-  const long visible = visibleCount(window);
+  const int visible = window.visibleSides();
   if (visible > 0 && (visible < 4 || bordersAreUsable(window))) {
     for (int i = 0; i < 4; ++i) {
       const double scale =
@@ -111,7 +106,6 @@ bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Ei
                white_slope = std::max(turn, kMinWhiteSigmaPx / length);
   Border& border = borders_[border_count_++];
   border.side = side;
-  border.length_px = length;
   border.middle = 0.5 * (from + to);
   border.along = (to - from) / length;
   border.across = {-border.along.y(), border.along.x()};
@@ -137,18 +131,6 @@ void ImageMeasurement::addCorner(const Eigen::Matrix2d& covariance, int corner, 
   for (int axis = 0; axis < 2; ++axis)
     corner_weights_[corner].row(axis) =
         axes.col(axis).transpose() / std::sqrt(marginalVariance(white(axis), systematic, noise));
-}
-
-double ImageMeasurement::rmsPx(const CornerVector& predicted_px) const {
-  if (has_corners_) return (predicted_px - corners_px_).norm() / std::sqrt(8.0);
-  const LinearisedResidual weighted = evaluate(predicted_px);
-  double squares = 0.0;
-  for (int i = 0; i < border_count_; ++i) {
-    const double offset = weighted.residual(2 * i) * borders_[i].offset_sigma_px;
-    const double turn = 0.5 * borders_[i].length_px * weighted.residual(2 * i + 1) * borders_[i].slope_sigma;
-    squares += offset * offset + turn * turn;
-  }
-  return std::sqrt(squares / border_count_);
 }
 
 LinearisedResidual ImageMeasurement::evaluate(const CornerVector& predicted_px) const {

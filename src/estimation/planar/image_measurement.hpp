@@ -45,22 +45,16 @@ class ImageMeasurement {
 
   LinearisedResidual evaluate(const CornerVector& predicted_px) const;
 
-  /// Distance of the prediction, root mean square [px]: per coordinate of the corners; of a partial
-  /// observation, across the borders at the ends of what was seen of them.
-  double rmsPx(const CornerVector& predicted_px) const;
-
   /// Measured, undistorted; of a partial observation where its four borders cross.
   const CornerVector& cornersPx() const { return corners_px_; }
   bool hasCorners() const { return has_corners_; }  ///< false: a border is missing, the corners are zero
   int size() const { return 2 * (border_count_ > 0 ? border_count_ : 4); }
-  int borders() const { return border_count_; }  ///< 0: corners are used instead
-  bool complete() const { return size() == 8; }
 
  private:
   struct Border {
     int side;
     Eigen::Vector2d middle, along, across;
-    double length_px, offset_sigma_px, slope_sigma;
+    double offset_sigma_px, slope_sigma;
   };
   static std::optional<ImageMeasurement> ofPartial(const detection::WindowObservation& window,
                                                    const geometry::PinholeCamera& camera,

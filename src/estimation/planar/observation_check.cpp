@@ -10,7 +10,6 @@ namespace {
 
 using detection::WindowObservation;
 
-constexpr int kSidesAlone = 4, kSidesWithPrior = 2;  // that a partial observation must show
 constexpr double kMinSidePx = 4.0;
 constexpr double kMinCornerAngleRad = 0.15;  // interior angles stay this far from 0 and pi
 
@@ -41,22 +40,19 @@ WindowObservation startedAt(const WindowObservation& window, int first) {
   return out;
 }
 
-std::string missingSides(const WindowObservation& window, bool has_prior) {
+std::string missingSides(const WindowObservation& window) {
   static const char* const kNames[] = {"top", "right", "bottom", "left"};
   std::string unseen;
   for (int i = 0; i < 4; ++i)
     if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
-  return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen + " not seen; " +
-         (has_prior ? "too few even with a prior pose" : "no pose from this image alone");
+  return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen +
+         " not seen; no pose from this image alone";
 }
 
-std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           bool has_prior) {
-  if (window.visibleSides() < (has_prior ? kSidesWithPrior : kSidesAlone))
-    return missingSides(window, has_prior);
+std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera) {
+  if (window.visibleSides() < 4) return missingSides(window);
   const double margin = std::max(camera.width, camera.height);
   for (const auto& edge : window.edges) {
-    if (!edge.visible) continue;
     if (!edge.a.allFinite() || !edge.b.allFinite()) return "a border's end is not finite";
     if (!camera.contains(edge.a, -margin) || !camera.contains(edge.b, -margin))
       return "a border's end lies more than an image's size outside the image";
@@ -73,9 +69,8 @@ bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera
   return -up_camera.y() > up_camera.head<2>().norm() * std::sqrt(0.5);
 }
 
-std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           bool has_prior) {
-  if (!window.whole()) return faultOfPartial(window, camera, has_prior);
+std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera) {
+  if (!window.whole()) return faultOfPartial(window, camera);
   if (!geometry::isFinite(window.corners)) return "a corner is not finite";
   if (!isNearImage(window.corners, camera))
     return "a corner lies more than an image's size outside the image";
@@ -86,10 +81,8 @@ std::string faultOfCorners(const WindowObservation& window, const geometry::Pinh
   for (const double angle : geometry::interiorAngles(window.corners))
     if (angle < kMinCornerAngleRad || angle > M_PI - kMinCornerAngleRad)
       return formatted("corner of %.3f rad is nearer than %.3f rad to flat", angle, kMinCornerAngleRad);
-  const auto visible =
-      std::count_if(window.edges.begin(), window.edges.end(), [](auto& e) { return e.visible; });
-  if (visible > 0 && visible < 4)
-    return formatted("only %.0f of %.0f borders are seen", double(visible), 4.0);
+  const int visible = window.visibleSides();
+  if (visible > 0 && visible < 4) return formatted("only %d of 4 borders are seen", visible);
   return "";
 }
 

@@ -8,9 +8,8 @@
 namespace window_ingress::estimation {
 
 /// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried. A partial
-/// observation must show all four borders, or two where there is a prior pose.
-std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                           bool has_prior);
+/// observation must show all four borders.
+std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera);
 
 /// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
 /// ones are put upright.

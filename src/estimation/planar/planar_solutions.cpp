@@ -1,7 +1,6 @@
 #include "estimation/planar/planar_solutions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,21 +10,13 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr int kPoseParameters = 6;
-// 99 % of sums of 0, 1, .. 8 squares are smaller.
-constexpr std::array<double, 9> kChiSquared99{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
-
+constexpr double kSpare = 2.0;          // of the eight residuals, beside the six that the pose takes
+constexpr double kChiSquared99 = 9.21;  // 99 % of sums of so many squares are smaller
 constexpr double kSameRotationRad = 1e-3;
 
 bool areSame(const PlanarSolution& a, const PlanarSolution& b) {
   const Eigen::Quaterniond qa(a.T_camera_window.linear()), qb(b.T_camera_window.linear());
   return qa.angularDistance(qb) < kSameRotationRad;
-}
-
-std::optional<FitPoint> startOf(const RefinementProblem& problem) {
-  if (problem.image.hasCorners()) return startFromHomography(problem);
-  if (!problem.prior) return std::nullopt;
-  return FitPoint{problem.prior->T_camera_window, Eigen::Vector2d::Zero()};
 }
 
 constexpr double kStraySigma = 0.03;       // of a side's length
@@ -39,10 +30,8 @@ double neededEvidence(const WindowPoseEstimate& all) {
 
 }  // namespace
 
-double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
-  const int spare = problem.image.size() + (problem.prior ? kPoseParameters : 0) - kPoseParameters;
-  const double beyond = 2.0 * best.cost - kChiSquared99[std::clamp(spare, 0, 8)];
-  return 1.0 + std::max(0.0, beyond) / std::max(1, spare);
+double misfitOf(const PlanarSolution& best) {
+  return 1.0 + std::max(0.0, 2.0 * best.cost - kChiSquared99) / kSpare;
 }
 
 void widen(double factor, PlanarSolution& solution) {
@@ -59,7 +48,8 @@ Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) {
 }
 
 std::optional<PlanarSolutions> planarSolutions(const RefinementProblem& problem) {
-  const auto start = startOf(problem);
+  if (!problem.image.hasCorners()) return std::nullopt;
+  const auto start = startFromHomography(problem);
   if (!start) return std::nullopt;
   const auto mirroredStart = [&](const Eigen::Isometry3d& T) {
     return FitPoint{mirrored(T), start->size_deviation};
@@ -75,8 +65,7 @@ std::optional<PlanarSolutions> planarSolutions(const RefinementProblem& problem)
 
 std::optional<StrayBorder> withoutStrayBorder(const RefinementProblem& problem,
                                               const WindowPoseEstimate& all) {
-  if (!problem.size_root.isZero(0.0) || !all.aspect || misfitOf(problem, all.best) <= 1.0)
-    return std::nullopt;
+  if (!problem.size_root.isZero(0.0) || !all.aspect || misfitOf(all.best) <= 1.0) return std::nullopt;
   const bool is_narrow = all.aspect->ratio < problem.opening.width_m / problem.opening.height_m;
   RefinementProblem freed = problem;
   freed.size_root =

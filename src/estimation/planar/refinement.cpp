@@ -1,6 +1,7 @@
 #include "estimation/planar/refinement.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 namespace window_ingress::estimation {
 namespace {
@@ -33,13 +34,6 @@ void addGravity(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_windo
   out.gradient.segment<3>(3) += gravity.by_rotation.transpose() * gravity.residual;
 }
 
-double addPrior(const PosePrior& prior, const Eigen::Isometry3d& T_camera_window, NormalEquations& out) {
-  const PriorResidual off = priorResidual(prior, T_camera_window);
-  out.information.topLeftCorner<6, 6>() += off.by_pose.transpose() * off.by_pose;
-  out.gradient.head<6>() += off.by_pose.transpose() * off.residual;
-  return 0.5 * off.residual.squaredNorm();
-}
-
 std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const FitPoint& point,
                                          const NormalEquations& equations) {
   const Eigen::LLT<Matrix8d> information(equations.information);
@@ -53,7 +47,7 @@ std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const
   solution.opening_log_covariance =
       problem.size_root * covariance.bottomRightCorner<2, 2>() * problem.size_root.transpose();
   const auto predicted = predictOpening(problem.camera, point.T_camera_window, solution.opening);
-  solution.reprojection_rms_px = problem.image.rmsPx(predicted->corners_px);
+  solution.reprojection_rms_px = (predicted->corners_px - problem.image.cornersPx()).norm() / std::sqrt(8.0);
   solution.cost = equations.cost_without_gravity;
   return solution;
 }
@@ -62,6 +56,11 @@ std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const
 
 geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point) {
   return scaled(problem.opening, problem.size_root * point.size_deviation);
+}
+
+GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window) {
+  const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
+  return {window_up.cross(up) / prior.sigma_rad, skew(up) * skew(window_up) / prior.sigma_rad};
 }
 
 std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point) {
@@ -77,7 +76,6 @@ std::optional<NormalEquations> linearise(const RefinementProblem& problem, const
   equations.information.diagonal().tail<2>().array() += 1.0;
   equations.gradient.tail<2>() += point.size_deviation;
   equations.cost = 0.5 * (image.residual.squaredNorm() + point.size_deviation.squaredNorm());
-  if (problem.prior) equations.cost += addPrior(*problem.prior, point.T_camera_window, equations);
   equations.cost_without_gravity = equations.cost;
   if (problem.gravity) addGravity(*problem.gravity, point.T_camera_window.linear(), equations);
   if (!equations.information.allFinite() || !equations.gradient.allFinite()) return std::nullopt;

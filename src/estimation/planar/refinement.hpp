@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "estimation/planar/image_measurement.hpp"
-#include "window_ingress/estimation/pose_prior.hpp"
+#include "window_ingress/estimation/gravity_prior.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -17,7 +17,6 @@ struct RefinementProblem {
   const geometry::PinholeCamera& camera;
   geometry::OpeningSize opening;  ///< the size that is known, or believed
   std::optional<GravityPrior> gravity = std::nullopt;
-  std::optional<PosePrior> prior = std::nullopt;
   Eigen::Matrix2d size_root = Eigen::Matrix2d::Zero();  ///< `rootOf` what is believed of it; zero: known
 };
 
@@ -30,11 +29,18 @@ struct FitPoint {
 
 geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point);
 
+/// Cross product of the window's up with gravity's, weighted; and by rotation about the camera's axes.
+struct GravityResidual {
+  Eigen::Vector3d residual;
+  Eigen::Matrix3d by_rotation;
+};
+GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window);
+
 /// Cost of a point with the normal equations at it: six parameters of the pose as in `moved`, two of the
 /// size.
 struct NormalEquations {
   double cost = 0.0;                  ///< half the sum of squared residuals, gravity included
-  double cost_without_gravity = 0.0;  ///< that of the image, the prior and the size
+  double cost_without_gravity = 0.0;  ///< that of the image and the size
   Eigen::Matrix<double, 8, 8> information = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 1> gradient = Eigen::Matrix<double, 8, 1>::Zero();
 };

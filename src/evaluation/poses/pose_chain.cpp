@@ -156,7 +156,7 @@ PoseChainResult chainResult(const SurveyImage& sample,
   out.detected = judge(window->corners, sample.truth) == SurveyVerdict::kHit;
   if (!out.detected) return out;
   out.borders = borderErrors(*window, sample.truth.inner, sample.camera);
-  const auto result = estimator.estimate(*window, sample.camera, gravity);
+  const auto result = estimator.estimate(*window, sample.camera, {gravity});
   out.estimate = result.estimate;
   out.reject = result.detail;
   if (out.estimate) compare(*truth, gravity ? gravity->up_camera : Eigen::Vector3d(0.0, -1.0, 0.0), out);

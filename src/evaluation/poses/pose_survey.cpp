@@ -228,7 +228,7 @@ PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, in
     ++result.draws;
     addBound(result, *bound);
     const auto alone = estimator.estimate(*window, setup.camera);
-    const auto with_attitude = estimator.estimate(*window, setup.camera, gravity);
+    const auto with_attitude = estimator.estimate(*window, setup.camera, {gravity});
     if (alone.estimate) addTrust(result, *view, *alone.estimate);
     const auto poseOf = [](const estimation::PoseResult& found) {
       return found.estimate ? std::optional(found.estimate->best.T_camera_window) : std::nullopt;

@@ -52,7 +52,7 @@ Errors measure(double distance_m, int images) {
     const auto corners = geometry::projectOpening(world.camera(), truth, world.opening());
     if (!window || !corners || largestCornerError(*window, *corners) > 1.0) continue;
     const GravityPrior gravity{truth.linear().col(2), 0.02};
-    const auto result = estimator.estimate(*window, world.camera(), gravity);
+    const auto result = estimator.estimate(*window, world.camera(), {gravity});
     EXPECT_TRUE(result.estimate) << result.detail;
     if (!result.estimate) continue;
     const Eigen::Isometry3d& pose = result.estimate->best.T_camera_window;

@@ -97,7 +97,7 @@ TEST(WindowPoseEstimator, GravityTurnsYawIntoAHeadingOnATiltedCamera) {
           .toRotationMatrix();
   const auto T = geometry::makePose(tilt, Eigen::Vector3d::Zero()) * view(3.0, 30 * kDegree);
   const GravityPrior gravity{tilt * Eigen::Vector3d(0, -1, 0), 0.01};
-  const auto result = estimator.estimate(cornersSeen(camera(), T, 0.1), camera(), gravity);
+  const auto result = estimator.estimate(cornersSeen(camera(), T, 0.1), camera(), {gravity});
   ASSERT_TRUE(result.estimate) << result.detail;
   EXPECT_NEAR(result.estimate->yaw_rad, 30 * kDegree + std::atan2(tilt(2, 0), tilt(2, 2)), 1e-3);
   const auto plain = estimator.estimate(cornersSeen(camera(), T, 0.1), camera()).estimate.value();
@@ -110,7 +110,7 @@ TEST(WindowPoseEstimator, UnusableGravityIsNoGravity) {
   const auto expected = estimator.estimate(window, camera()).estimate.value();
   for (const GravityPrior& gravity : {GravityPrior{{kNaN, 0, 0}, 0.02}, GravityPrior{{0, 0, 0}, 0.02},
                                       GravityPrior{{0, -1, 0}, 0.0}, GravityPrior{{0, -1, 0}, kNaN}}) {
-    const auto result = estimator.estimate(window, camera(), gravity);
+    const auto result = estimator.estimate(window, camera(), {gravity});
     ASSERT_TRUE(result.estimate);
     EXPECT_EQ(result.estimate->yaw_rad, expected.yaw_rad);
   }
