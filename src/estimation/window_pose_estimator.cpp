@@ -182,7 +182,6 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   const auto stray = withoutStrayBorder(problem, estimate);
   if (stray) estimate = describe(stray->problem, stray->solutions, up);
   estimate.stamp_sec = window.stamp_sec;
-  estimate.border_astray = stray.has_value();
   if (stray) estimate.opening = size.size, estimate.opening_log_covariance.setZero();
   if (!isInFront(window, estimate))
     return rejected(PoseReject::kNotInFront, "a corner of the window would lie behind the camera");

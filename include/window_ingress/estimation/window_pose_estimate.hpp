@@ -52,9 +52,6 @@ struct WindowPoseEstimate {
   geometry::OpeningSize opening;  ///< the size that the pose is for: known, or at which it fits best
   Eigen::Matrix2d opening_log_covariance = Eigen::Matrix2d::Zero();  ///< of (log width, log height)
 
-  /// One border contradicts the opening's known size; its place was not used (`withoutStrayBorder`).
-  bool border_astray = false;
-
   /// Width over height as measured in this image alone, whatever is known of it. Only of a whole view, else
   /// nothing.
   std::optional<MeasuredAspect> aspect;
