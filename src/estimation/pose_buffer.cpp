@@ -16,16 +16,13 @@ Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b
 
 }  // namespace
 
-PoseBuffer::PoseBuffer(double span_sec, std::size_t max_samples, double max_gap_sec)
-    : span_sec_(span_sec), max_samples_(std::max<std::size_t>(max_samples, 1)), max_gap_sec_(max_gap_sec) {}
-
 bool PoseBuffer::add(double stamp_sec, const Eigen::Isometry3d& pose) {
   if (!std::isfinite(stamp_sec) || !geometry::isValidPose(pose)) return false;
   const double newer_sec = samples_.empty() ? 1.0 : stamp_sec - samples_.back().stamp_sec;
   if (newer_sec <= 0.0 && newer_sec > -kLateSec) return false;
   if (newer_sec < 0.0) samples_.clear();
   samples_.push_back({stamp_sec, pose});
-  while (samples_.size() > max_samples_ || samples_.front().stamp_sec < stamp_sec - span_sec_)
+  while (samples_.size() > kMaxSamples || samples_.front().stamp_sec < stamp_sec - kSpanSec)
     samples_.pop_front();
   return true;
 }
@@ -38,7 +35,7 @@ std::optional<Eigen::Isometry3d> PoseBuffer::at(double stamp_sec, double max_ext
   const bool is_outside = after == samples_.end() || after == samples_.begin();
   const Sample &before = after == samples_.begin() ? *after : *(after - 1),
                &next = after == samples_.end() ? before : *after;
-  if (is_outside || next.stamp_sec - before.stamp_sec > max_gap_sec_) {
+  if (is_outside || next.stamp_sec - before.stamp_sec > kMaxGapSec) {
     const bool is_before = stamp_sec - before.stamp_sec < next.stamp_sec - stamp_sec;
     const Sample& nearest = is_before ? before : next;
     if (std::abs(stamp_sec - nearest.stamp_sec) > max_extrapolation_sec) return std::nullopt;

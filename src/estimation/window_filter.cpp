@@ -39,7 +39,7 @@ struct WindowFilter::Impl {
   YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // to begin with
   double unlearned_yaw_rad = 0.0;                        // a standard deviation of it, since odometry turned
   double turned_sec = 0.0;
-  Viewpoints viewpoints{FilterParams::kSystematicRenewalM};
+  Viewpoints viewpoints;
   MirrorHypotheses beliefs{params};
   ConsistencyMonitor consistency;
   OdometrySmoother path;

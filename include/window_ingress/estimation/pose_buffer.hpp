@@ -11,8 +11,6 @@ namespace window_ingress::estimation {
 /// is a jump back in time and clears the buffer; one that is less older comes late and is left out.
 class PoseBuffer {
  public:
-  /// \param max_gap_sec samples further apart say nothing about what was between them
-  explicit PoseBuffer(double span_sec = 2.0, std::size_t max_samples = 1000, double max_gap_sec = 0.3);
   static constexpr double kLateSec = 0.5;
 
   /// \return false and nothing stored if the stamp or the pose is not finite, or the stamp repeats or is late
@@ -26,13 +24,14 @@ class PoseBuffer {
   bool empty() const { return samples_.empty(); }
 
  private:
+  static constexpr double kSpanSec = 2.0;
+  static constexpr std::size_t kMaxSamples = 1000;
+  static constexpr double kMaxGapSec =
+      0.3;  ///< samples further apart say nothing about what was between them
   struct Sample {
     double stamp_sec;
     Eigen::Isometry3d pose;
   };
-  double span_sec_;
-  std::size_t max_samples_;
-  double max_gap_sec_;
   std::deque<Sample> samples_;
 };
 

@@ -6,7 +6,7 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr std::size_t kMinSamples = 5, kMaxSamples = 400;
-constexpr double kMinSpan = 1.0 / 3.0;
+constexpr double kSpanSec = 1.0, kMinSpanSec = 1.0 / 3.0;
 
 }  // namespace
 
@@ -14,14 +14,14 @@ void OdometrySmoother::add(double stamp_sec, const Eigen::Vector3d& position_m) 
   if (!std::isfinite(stamp_sec) || !position_m.allFinite()) return;
   if (!samples_.empty() && stamp_sec <= samples_.back().stamp_sec) samples_.clear();
   samples_.push_back({stamp_sec, position_m});
-  while (samples_.size() > kMaxSamples || samples_.front().stamp_sec < stamp_sec - span_sec_)
+  while (samples_.size() > kMaxSamples || samples_.front().stamp_sec < stamp_sec - kSpanSec)
     samples_.pop_front();
 }
 
 std::optional<OdometrySmoother::Motion> OdometrySmoother::motion() const {
   if (samples_.size() < kMinSamples) return std::nullopt;
   const Sample& last = samples_.back();
-  if (last.stamp_sec - samples_.front().stamp_sec < kMinSpan * span_sec_) return std::nullopt;
+  if (last.stamp_sec - samples_.front().stamp_sec < kMinSpanSec) return std::nullopt;
   double mean_sec = 0.0;
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
   for (const Sample& sample : samples_) {

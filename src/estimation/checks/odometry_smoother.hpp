@@ -9,8 +9,6 @@ namespace window_ingress::estimation {
 /// The last second of a way, as a straight line in time: what of the odometry is motion, and what is jitter.
 class OdometrySmoother {
  public:
-  explicit OdometrySmoother(double span_sec = 1.0) : span_sec_(span_sec) {}
-
   struct Motion {
     Eigen::Vector3d position_m;  ///< on the line, at the time of the last sample
     Eigen::Vector3d velocity_mps;
@@ -27,7 +25,6 @@ class OdometrySmoother {
     double stamp_sec;
     Eigen::Vector3d position_m;
   };
-  double span_sec_;
   std::deque<Sample> samples_;
 };
 

@@ -6,11 +6,9 @@
 namespace window_ingress::estimation {
 
 /// Counts the images taken from each place, so that the systematic error they share is not averaged away.
+/// Places nearer to each other than `FilterParams::kSystematicRenewalM` are one.
 class Viewpoints {
  public:
-  /// Places nearer to each other than `spacing_m` are one.
-  explicit Viewpoints(double spacing_m) : spacing_m_(spacing_m) {}
-
   /// How many images were taken from here, one more included.
   double looksWith(const Eigen::Vector3d& position) const;
   void add(const Eigen::Vector3d& position);
@@ -22,7 +20,6 @@ class Viewpoints {
     double looks;
   };
   static constexpr std::size_t kMaxPlaces = 256;  ///< the oldest is forgotten
-  double spacing_m_;
   std::vector<Place> places_;
 };
 

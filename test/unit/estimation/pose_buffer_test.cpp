@@ -65,15 +65,13 @@ TEST(PoseBuffer, ALateSampleIsNoJumpBackInTime) {
 }
 
 TEST(PoseBuffer, IsBoundedInSpanAndCount) {
-  PoseBuffer by_span(1.0), by_count(1e9, 10);
-  for (int i = 0; i < 100; ++i) {
-    by_span.add(0.1 * i, Eigen::Isometry3d::Identity());
-    by_count.add(0.1 * i, Eigen::Isometry3d::Identity());
-  }
-  EXPECT_FALSE(by_span.at(8.8));
-  EXPECT_TRUE(by_span.at(8.95));
-  EXPECT_FALSE(by_count.at(8.95));
-  EXPECT_TRUE(by_count.at(9.05));
+  PoseBuffer by_span, by_count;
+  for (int i = 0; i < 100; ++i) by_span.add(0.1 * i, Eigen::Isometry3d::Identity());
+  for (int i = 0; i < 1500; ++i) by_count.add(0.001 * i, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(by_span.at(7.75));
+  EXPECT_TRUE(by_span.at(8.05));
+  EXPECT_FALSE(by_count.at(0.4955));
+  EXPECT_TRUE(by_count.at(0.5045));
   by_span.clear();
   EXPECT_TRUE(by_span.empty());
 }

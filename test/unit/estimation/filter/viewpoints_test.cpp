@@ -5,7 +5,7 @@
 namespace window_ingress::estimation::viewpoints_test {
 
 TEST(Viewpoints, CountsImagesByPlaceAlsoOnReturn) {
-  Viewpoints viewpoints(0.5);
+  Viewpoints viewpoints;
   const Eigen::Vector3d here(0, 0, 0), near(0.2, 0.2, 0), there(2, 0, 0);
   EXPECT_EQ(viewpoints.looksWith(here), 1.0);
   viewpoints.add(here);
@@ -20,7 +20,7 @@ TEST(Viewpoints, CountsImagesByPlaceAlsoOnReturn) {
 }
 
 TEST(Viewpoints, ForgetsTheOldestOfVeryMany) {
-  Viewpoints viewpoints(0.5);
+  Viewpoints viewpoints;
   for (int i = 0; i < 1000; ++i) viewpoints.add({double(i), 0, 0});
   EXPECT_EQ(viewpoints.looksWith({0, 0, 0}), 1.0);
   EXPECT_EQ(viewpoints.looksWith({999, 0, 0}), 2.0);
