@@ -45,7 +45,7 @@ TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& fil
     : params_(checked(params)),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      checks_(new Checks{{pose, filter, sizeSaid(pose)},
+      checks_(new Checks{{MountingCheck(pose, filter, sizeSaid(pose))},
                          ParallaxCheck(filter.target_speed_mps),
                          filter.mounting_yaw_sigma_rad <= kSureMountingRad}),
       judge_(params.openness, params.needed),
@@ -92,7 +92,7 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
     if (dt_sec >= 0.0 && isJump(dt_sec, T_odom_base)) forgetPlaces();
   }
   if (!odometry_.add(stamp_sec, T_odom_base)) return;
-  if (velocity_odom_mps) checks_->frames.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
+  if (velocity_odom_mps) checks_->frames.twist.add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
   // Tilts change within the lateness: their rates tell nothing of it.
@@ -150,7 +150,7 @@ void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   target_id_ = target_id;
   checks_->parallax.clear();
   unverified_.clear();
-  checks_->frames.mounting().startAnewForAnotherTarget(target_id);
+  checks_->frames.mounting.startAnewForAnotherTarget(target_id);
   clocks_.forgetPlaces();
 }
 
@@ -255,7 +255,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
 std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
   const auto imu = attitude_.at(stamp_sec, kMaxPoseGapSec);
   const auto odometry = odometry_.at(stamp_sec, kMaxPoseGapSec);
-  const bool agree = !imu || !odometry || checks_->frames.attitude().see(imu->linear(), odometry->linear());
+  const bool agree = !imu || !odometry || checks_->frames.attitude.see(imu->linear(), odometry->linear());
   if (imu && agree) return imu->linear();
   if (odometry) return odometry->linear();
   return std::nullopt;

@@ -71,26 +71,26 @@ void TargetEstimator::verifyMounting(double odometry_sec) {
     const auto before = odometry_.at(image.stamp_sec - kAroundSec, kMaxPoseGapSec);
     const auto after = odometry_.at(image.stamp_sec + kAroundSec, kMaxPoseGapSec);
     if (!T_odom_base) continue;
-    checks_->frames.mounting().assumeDrift(checks_->frames.twist().driftMPerSqrtSec());
+    checks_->frames.mounting.assumeDrift(checks_->frames.twist.driftMPerSqrtSec());
     CameraMotion motion;
     if (before && after) {
       motion.velocity_mps = (after->translation() - before->translation()) / (2.0 * kAroundSec);
       const Eigen::AngleAxisd turn(after->linear() * before->linear().transpose());
       motion.turn_radps = turn.angle() * turn.axis() / (2.0 * kAroundSec);
     }
-    checks_->frames.mounting().see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
+    checks_->frames.mounting.see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
   }
 }
 
 std::string TargetEstimator::unverified() const {
-  const FramesVerdict mounting = checks_->frames.mounting().verdict();
+  const FramesVerdict mounting = checks_->frames.mounting.verdict();
   return checks_->mounting_is_sure || mounting.state == FramesVerdict::kGood ? "" : mounting.what;
 }
 
 FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
 
 const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
-  return checks_->frames.mounting().measuredSize();
+  return checks_->frames.mounting.measuredSize();
 }
 
 // A factor out of all proportion speaks of the frames, not of the window.

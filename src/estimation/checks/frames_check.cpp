@@ -3,35 +3,32 @@
 #include <vector>
 
 namespace window_ingress::estimation {
-FramesCheck::FramesCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size)
-    : mounting_(pose, filter, size) {}
 
 FramesVerdict FramesCheck::verdict() const {
-  const FramesVerdict mounting = mounting_.verdict(), twist = twist_.verdict(),
-                      attitude = attitude_.verdict();
+  const FramesVerdict mounted = mounting.verdict(), twisted = twist.verdict(), tilted = attitude.verdict();
   const auto are = [&](FramesVerdict::State state) {
-    return (mounting.state == state) + (twist.state == state);
+    return (mounted.state == state) + (twisted.state == state);
   };
-  const bool wrong = are(FramesVerdict::kWrong) > 0 || attitude.state == FramesVerdict::kWrong;
+  const bool wrong = are(FramesVerdict::kWrong) > 0 || tilted.state == FramesVerdict::kWrong;
   FramesVerdict out;
   out.state = wrong                            ? FramesVerdict::kWrong
               : are(FramesVerdict::kGood) == 2 ? FramesVerdict::kGood
                                                : FramesVerdict::kOpen;
   for (const FramesVerdict& part :
-       wrong ? std::vector{mounting, attitude, twist} : std::vector{mounting, twist})
+       wrong ? std::vector{mounted, tilted, twisted} : std::vector{mounted, twisted})
     if (part.state == out.state) out.what += (out.what.empty() ? "" : "; ") + part.what;
   return out;
 }
 
 void FramesCheck::clear() {
-  twist_.clear();
-  attitude_.clear();
-  mounting_.clear();
+  twist.clear();
+  attitude.clear();
+  mounting.clear();
 }
 
 void FramesCheck::forgetPlaces() {
-  twist_.startPiece();
-  mounting_.forgetPlaces();
+  twist.startPiece();
+  mounting.forgetPlaces();
 }
 
 }  // namespace window_ingress::estimation

@@ -8,14 +8,10 @@ namespace window_ingress::estimation {
 
 /// Camera mounting, attitude and velocity frame, verified in the first metres of motion: what is predicted
 /// against what is seen and flown. A mismatch is named; with it nobody should fly towards anything.
-class FramesCheck {
- public:
-  FramesCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size);
-
-  TwistCheck& twist() { return twist_; }
-  AttitudeCheck& attitude() { return attitude_; }
-  MountingCheck& mounting() { return mounting_; }
-  const MountingCheck& mounting() const { return mounting_; }
+struct FramesCheck {
+  MountingCheck mounting;
+  TwistCheck twist = {};
+  AttitudeCheck attitude = {};
 
   /// Wrong if one of them is; good if mounting and velocity are (an imu need not be there).
   FramesVerdict verdict() const;
@@ -23,11 +19,6 @@ class FramesCheck {
   void clear();
   /// The odometry frame is another one; what was found out stays.
   void forgetPlaces();
-
- private:
-  TwistCheck twist_;
-  AttitudeCheck attitude_;
-  MountingCheck mounting_;
 };
 
 }  // namespace window_ingress::estimation

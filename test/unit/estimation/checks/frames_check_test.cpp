@@ -10,13 +10,13 @@ FramesVerdict fly(unsigned seed, const evaluation::FrameFaults& faults, double* 
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
   script.image_rate_hz = 15.0;
   evaluation::SyntheticApproach approach(seed, script, FilterParams(), faults);
-  FramesCheck check({}, FilterParams(), {{1.2, 1.0}});
+  FramesCheck check{MountingCheck({}, FilterParams(), {{1.2, 1.0}})};
   while (approach.advance() && check.verdict().state != FramesVerdict::kWrong) {
     for (const auto& odometry : approach.odometry())
-      check.twist().add(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
+      check.twist.add(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
     if (approach.isInView())
-      check.mounting().see(approach.window(), approach.camera(), approach.odometry().back().T_odom_base,
-                           approach.T_base_camera());
+      check.mounting.see(approach.window(), approach.camera(), approach.odometry().back().T_odom_base,
+                         approach.T_base_camera());
   }
   if (way_m) *way_m = approach.flownM();
   return check.verdict();
@@ -53,11 +53,11 @@ TEST(FramesCheck, FindsATwistInWorldAxes) {
 }
 
 TEST(FramesCheck, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
-  FramesCheck check({}, FilterParams(), {{1.2, 1.0}});
+  FramesCheck check{MountingCheck({}, FilterParams(), {{1.2, 1.0}})};
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
   EXPECT_NE(check.verdict().what.find("camera mounting"), std::string::npos);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 100; ++i, T.translation().x() += 0.02) check.twist().add(i / 50.0, T, {-1.0, 0, 0});
+  for (int i = 0; i < 100; ++i, T.translation().x() += 0.02) check.twist.add(i / 50.0, T, {-1.0, 0, 0});
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
   check.forgetPlaces();
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
