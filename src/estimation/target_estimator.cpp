@@ -242,10 +242,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
   if (!image.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";
   checkSize(image, *T_odom_camera);
-  const bool used = last_.pose.estimate
-                        ? filter_.update(*last_.pose.estimate, window, image.camera, *T_odom_camera, motion_)
-                        : filter_.update(window, image.camera, *T_odom_camera, motion_);
-  if (used) return "";
+  if (filter_.update(last_.pose.estimate, window, image.camera, *T_odom_camera, motion_)) return "";
   const auto [width_m, height_m] = lookedFor();
   return formatted("gated out: does not fit what was seen before, or an opening of %.2f x %.2f m", width_m,
                    height_m);

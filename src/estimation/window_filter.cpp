@@ -140,7 +140,7 @@ struct WindowFilter::Impl {
   }
 
   // What was believed before is kept until a new start succeeds.
-  bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+  bool start(const std::optional<WindowPoseEstimate>& estimate, double stamp, const FilterView& view) {
     if (!estimate) return false;
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera, {}, true, view.motion};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
@@ -171,7 +171,7 @@ struct WindowFilter::Impl {
     target_id = seen_id;
   }
 
-  bool update(const WindowPoseEstimate* estimate, const detection::WindowObservation& window,
+  bool update(const std::optional<WindowPoseEstimate>& estimate, const detection::WindowObservation& window,
               const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
               const CameraMotion& camera_motion) {
     if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
@@ -210,7 +210,7 @@ struct WindowFilter::Impl {
                                    : moved_m;
   }
 
-  bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+  bool apply(const std::optional<WindowPoseEstimate>& estimate, double stamp, const FilterView& view) {
     if (beliefs.empty()) return start(estimate, stamp, view);
     if (mean_squares > kRestartMeanSquares && start(estimate, stamp, view)) return true;
     learnYawAgain(stamp);
@@ -245,15 +245,10 @@ WindowFilter::~WindowFilter() = default;
 WindowFilter::WindowFilter(WindowFilter&&) noexcept = default;
 WindowFilter& WindowFilter::operator=(WindowFilter&&) noexcept = default;
 
-bool WindowFilter::update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
-                          const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
-                          const CameraMotion& motion) {
-  return impl_->update(&estimate, window, camera, T_odom_camera, motion);
-}
-
-bool WindowFilter::update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+bool WindowFilter::update(const std::optional<WindowPoseEstimate>& estimate,
+                          const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                           const Eigen::Isometry3d& T_odom_camera, const CameraMotion& motion) {
-  return impl_->update(nullptr, window, camera, T_odom_camera, motion);
+  return impl_->update(estimate, window, camera, T_odom_camera, motion);
 }
 
 std::optional<SizeEstimate> WindowFilter::sizeOf(const detection::WindowObservation& window) const {

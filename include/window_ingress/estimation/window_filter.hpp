@@ -63,18 +63,14 @@ class WindowFilter {
   WindowFilter& operator=(WindowFilter&&) noexcept;
 
   /// A new `target_id`, a jump of the clock or a long silence starts anew.
-  /// \param estimate computed with the size of `sizeOf`
+  /// \param estimate computed with the size of `sizeOf`; a window of which only some borders are seen may be
+  ///        without, but never starts a filter
   /// \param T_odom_camera from odometry, interpolated to the image's stamp
   /// \param motion at that stamp; matters where odometry's stamps may be late
   /// \return false if the observation was gated out or is older than the last one
-  bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
+  bool update(const std::optional<WindowPoseEstimate>& estimate, const detection::WindowObservation& window,
               const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
               const CameraMotion& motion = {});
-
-  /// The same without a pose of its own, for a window of which only some borders are seen. Never starts a
-  /// filter.
-  bool update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-              const Eigen::Isometry3d& T_odom_camera, const CameraMotion& motion = {});
 
   /// What is known of the size of the window in this observation, for the estimator: what the filter was made
   /// with, or what was found since; nothing if neither is there.

@@ -205,12 +205,12 @@ void MountingCheck::keep(const Image& image) {
 
 bool MountingCheck::feed(WindowFilter& filter, const Image& image,
                          const Eigen::Isometry3d& T_odom_camera) const {
-  if (filter.state(image.window.stamp_sec))
-    return filter.update(image.window, image.camera, T_odom_camera, image.motion);
-  PoseHints hints;
-  hints.size = open_;
-  const auto start = estimator_.estimate(image.window, image.camera, hints).estimate;
-  return start && filter.update(*start, image.window, image.camera, T_odom_camera, image.motion);
+  std::optional<WindowPoseEstimate> start;
+  if (!filter.state(image.window.stamp_sec)) {
+    start = estimator_.estimate(image.window, image.camera, {std::nullopt, open_}).estimate;
+    if (!start) return false;
+  }
+  return filter.update(start, image.window, image.camera, T_odom_camera, image.motion);
 }
 
 void MountingCheck::judge() {

@@ -79,7 +79,7 @@ struct Approach {
     auto seen = bordersSeen(camera(), T_odom_camera.inverse() * T_odom_window, 0.5, random);
     seen.stamp_sec = time_sec;
     const auto estimate = estimator.estimate(seen, camera()).estimate;
-    return estimate && filter.update(*estimate, seen, camera(), T_odom_camera);
+    return estimate && filter.update(estimate, seen, camera(), T_odom_camera);
   }
 };
 

@@ -73,7 +73,7 @@ struct Flight {
     const auto T = cameraAt(position, std::atan2(sight.y(), sight.x()));
     const auto window = see(T, stamp);
     const auto estimate = estimator.estimate(window, camera()).estimate;
-    return estimate && filter.update(*estimate, window, camera(), odometry(T, elapsed));
+    return estimate && filter.update(estimate, window, camera(), odometry(T, elapsed));
   }
 
   double yawError(double now) const {
@@ -319,7 +319,7 @@ TEST(WindowFilter, UsesABorderCutWindow) {
     window.edges[geometry::kBottom].visible = false;
     window.corners[2].y() -= 40;  // cut: the corners there are not the window's
     window.corners[3].y() -= 40;
-    EXPECT_TRUE(flight.filter.update(window, camera(), T)) << i;
+    EXPECT_TRUE(flight.filter.update(std::nullopt, window, camera(), T)) << i;
   }
   const auto after = flight.filter.state(4.0).value();
   EXPECT_GT(after.stamp_sec, before.stamp_sec);
@@ -340,10 +340,10 @@ TEST(WindowFilter, UsesAPartialViewByItsEdgesAndReadsNoCorner) {
     window.corner_visible.fill(false);
     window.corners.fill(Eigen::Vector2d::Zero());
     window.corner_covariance.fill(Eigen::Matrix2d::Zero());
-    EXPECT_TRUE(flight.filter.update(window, camera(), T)) << i;
+    EXPECT_TRUE(flight.filter.update(std::nullopt, window, camera(), T)) << i;
     window.stamp_sec += 0.01;
     for (auto& edge : window.edges) edge.visible = false;
-    EXPECT_FALSE(flight.filter.update(window, camera(), T)) << "nothing is seen";
+    EXPECT_FALSE(flight.filter.update(std::nullopt, window, camera(), T)) << "nothing is seen";
   }
   const auto after = flight.filter.state(4.0).value();
   EXPECT_LT((after.T_odom_window.translation() - flight.T_world_window.translation()).norm(), 0.03);
