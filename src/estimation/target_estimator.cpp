@@ -25,8 +25,7 @@ SizeEstimate sizeSaid(const PoseParams& pose) {
   return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
 
-}  // namespace
-
+/// The filter's state in the navigator's words.
 TargetEstimate targetFrom(const FilteredWindow& window) {
   TargetEstimate target;
   target.stamp_sec = window.stamp_sec;
@@ -39,6 +38,8 @@ TargetEstimate targetFrom(const FilteredWindow& window) {
   target.pose_stamp_sec = window.stamp_sec + window.age_sec;
   return target;
 }
+
+}  // namespace
 
 TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& filter,
                                  const TargetEstimatorParams& params)
@@ -163,15 +164,14 @@ void TargetEstimator::use(const ObservedImage& image) {
   noticeTarget(image.window->target_id);
   last_.pose = estimate(image);
   last_.why_not = updateFilter(image);
-  last_.used = last_.why_not.empty();
-  if (last_.used) judgeOpenness(image);
+  if (last_.why_not.empty()) judgeOpenness(image);
   checkClocks(image);
 }
 
 void TargetEstimator::rememberWindows(const ObservedImage& image) {
   const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
   if (!T_odom_camera) return;
-  const bool is_used = image.window && last_.used;
+  const bool is_used = image.window && last_.why_not.empty();
   const auto filtered = is_used ? filter_.state(image.stamp_sec) : std::nullopt;
   facade_.see({image.stamp_sec,
                {image.camera, *T_odom_camera},

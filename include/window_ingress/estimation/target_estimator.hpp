@@ -45,8 +45,7 @@ struct ObservedImage {
 /// What became of the last observation.
 struct TargetUpdate {
   PoseResult pose;
-  bool used = false;    ///< it contributed to the target
-  std::string why_not;  ///< empty if it did
+  std::string why_not;  ///< empty if it contributed to the target
 };
 
 /// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
@@ -156,8 +155,5 @@ class TargetEstimator {
   std::deque<ObservedImage> unverified_;  ///< images that the check of the mounting has yet to look at
   TargetUpdate last_;
 };
-
-/// The filter's state in the navigator's words.
-TargetEstimate targetFrom(const FilteredWindow& window);
 
 }  // namespace window_ingress::estimation

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "estimation/filter/innovation_gate.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
@@ -16,6 +15,11 @@ constexpr double kMaxEvidence = 3.0;     // of one image for one hypothesis agai
 constexpr double kMinWeight = 0.001;     // a lighter hypothesis is dropped
 constexpr double kHarmlessYawRad = 0.1;  // nearer to each other than this they need not be told apart
 constexpr double kImpossible = -1e300;
+
+/// Whether an image that was applied is near enough to what the belief expected.
+bool passesGate(const std::optional<WindowHypothesis::Outcome>& outcome, const FilterParams& params) {
+  return outcome && outcome->squares <= params.nis_gate;
+}
 
 double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); }
 

@@ -63,7 +63,6 @@ class WindowHypothesis {
     return {state_.values(WindowState::kYawBias),
             std::sqrt(covariance_(WindowState::kYawBias, WindowState::kYawBias))};
   }
-  double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.
   double yawFromSight(const Eigen::Vector3d& camera_position) const;

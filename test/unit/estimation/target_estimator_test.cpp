@@ -45,7 +45,7 @@ TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
   }
   const auto target = track.target(1.0);
   ASSERT_TRUE(target) << track.lastUpdate().why_not;
-  EXPECT_TRUE(track.lastUpdate().used);
+  EXPECT_EQ(track.lastUpdate().why_not, "");
   EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.02);
   EXPECT_NEAR(geometry::yawOf(target->T_odom_window.linear()), 0.3, 0.02);
   EXPECT_NEAR(target->stamp_sec, 29 / 30.0 - 0.05, 1e-9);
@@ -329,7 +329,7 @@ TEST(TargetEstimator, AnObservationWithoutBordersThatGivesNoPoseIsNotUsed) {
   }
   track.see(skewed, kCamera, kMounting);
   EXPECT_FALSE(track.lastUpdate().pose.estimate);
-  EXPECT_FALSE(track.lastUpdate().used);
+  EXPECT_FALSE(track.lastUpdate().why_not.empty());
   EXPECT_EQ(track.lastUpdate().why_not, track.lastUpdate().pose.detail);
 }
 
@@ -357,7 +357,6 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
   auto window = sighting(vehicleAt(0.0), 0.0);
   window.corners[2].x() = nan;
   track.see(window, kCamera, kMounting);
-  EXPECT_FALSE(track.lastUpdate().used);
   EXPECT_FALSE(track.lastUpdate().why_not.empty());
   EXPECT_FALSE(track.target(0.0));
   TargetEstimatorParams params;
