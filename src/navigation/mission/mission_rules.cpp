@@ -1,5 +1,6 @@
 #include "navigation/mission/mission_rules.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "navigation/mission/window_choice.hpp"
@@ -11,20 +12,12 @@ namespace {
 constexpr double kMaxShiftM = 0.8;  // a window this far from the one flown at is another one
 
 double timeoutOf(State state, const TimeoutParams& timeouts) {
-  switch (state) {
-    case State::kSearch:
-      return timeouts.search_sec;
-    case State::kAlign:
-      return timeouts.align_sec;
-    case State::kApproach:
-      return timeouts.approach_sec;
-    case State::kCommit:
-      return timeouts.commit_sec;
-    case State::kBackOff:
-      return timeouts.back_off_sec;
-    default:
-      return timeouts.total_sec;
-  }
+  if (state == State::kSearch) return timeouts.search_sec;
+  if (state == State::kAlign) return timeouts.align_sec;
+  if (state == State::kApproach) return timeouts.approach_sec;
+  if (state == State::kCommit) return timeouts.commit_sec;
+  if (state == State::kBackOff) return timeouts.back_off_sec;
+  return timeouts.total_sec;
 }
 }  // namespace
 
@@ -41,6 +34,27 @@ NavigatorParams checked(NavigatorParams params) {
   if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;
+}
+
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, const FlownWindow& flown_at,
+                                      const NavigatorParams& params) {
+  std::vector<std::string> faults;
+  if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
+  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
+  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!situation.camera_fault.empty()) faults.push_back(situation.camera_fault);
+  if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
+  if (!engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
+  if (!situation.vehicle) return faults;
+  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
+    faults.push_back("above limits/max_height_m");
+  }
+  if (const auto plane_m = flown_at.distanceInOpening(*situation.vehicle, params.vehicle))
+    faults.push_back(
+        formatted("in the opening that was flown at before, %.2f m from its plane: take the vehicle a "
+                  "metre away from it by hand",
+                  *plane_m));
+  return faults;
 }
 
 std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts) {

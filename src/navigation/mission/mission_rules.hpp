@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
@@ -13,6 +15,11 @@ namespace window_ingress::navigation {
 
 /// The parameters as given. \throws std::invalid_argument that lists every fault
 NavigatorParams checked(NavigatorParams params);
+
+/// What speaks against a start, all of it; empty if nothing does. \param flown_at in its opening a search
+/// would turn the vehicle against the border
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, const FlownWindow& flown_at,
+                                      const NavigatorParams& params);
 
 /// What has lasted too long, for people: the mission as a whole, or its stay in this state; empty if neither.
 /// How long HOLD lasts is its own matter (`hold/timeout_sec`).
