@@ -42,11 +42,8 @@ Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
   if (left_m > kThereM) return along(velocity_odom_mps, left_m);
   from_odom_m_.reset();
   const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
-  if (!stands) standing_since_sec_.reset();
-  if (stands && !standing_since_sec_) standing_since_sec_ = situation.now_sec;
-  const bool has_looked =
-      standing_since_sec_ && situation.now_sec - *standing_since_sec_ >= params_->align.step_pause_sec;
-  if (!has_looked) return Eigen::Vector3d::Zero();
+  const double looked_sec = heldSec(stands, situation.now_sec, standing_since_sec_);
+  if (!(looked_sec >= params_->align.step_pause_sec)) return Eigen::Vector3d::Zero();
   standing_since_sec_.reset();
   Eigen::Index axis;
   (R_odom_window.transpose() * velocity_odom_mps).cwiseAbs().maxCoeff(&axis);
@@ -102,13 +99,10 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
   const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);
-  Decision decision;
   const bool has_size = target.fit != estimation::Fit::kUnknown;
-  if (has_size && std::min(criterion.clearance_lateral_m, criterion.clearance_vertical_m) <= 0.0) {
-    decision.event = Event::kGiveUp;
-    decision.reason = "the opening is too small for the vehicle";
-    return decision;
-  }
+  if (has_size && std::min(criterion.clearance_lateral_m, criterion.clearance_vertical_m) <= 0.0)
+    return {{}, false, Event::kGiveUp, "the opening is too small for the vehicle"};
+  Decision decision;
   const bool is_forbidden = !target.approach_forbidden.empty();
   const bool near_axis = isNearAxis(relative, criterion, is_forbidden);
   const double retreat_mps = -velocityTowards(params_->align.min_distance_m - relative.distance(),
@@ -119,12 +113,7 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
                   uprightRotation(target), situation);
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
   decision.reason = "moving onto the window's normal";
-  if (!near_axis) {
-    in_funnel_since_sec_.reset();
-  } else if (!in_funnel_since_sec_) {
-    in_funnel_since_sec_ = situation.now_sec;
-  }
-  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < kFunnelDwellSec) return decision;
+  if (heldSec(near_axis, situation.now_sec, in_funnel_since_sec_) < kFunnelDwellSec) return decision;
   if (is_forbidden) return probeForLeave(situation, relative, decision);
   decision.event = Event::kAligned;
   return decision;

@@ -12,13 +12,6 @@ constexpr double kLooksWithinM = 0.4;
 constexpr double kLeaveFactor = 1.3,
                  kLeaveSec = 0.5;  // out of the funnel by so much, for so long: align again
 
-/// For how long a condition has held, updating when it began.
-double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
-  if (!condition) since_sec.reset();
-  if (condition && !since_sec) since_sec = now_sec;
-  return since_sec ? now_sec - *since_sec : -1.0;
-}
-
 }  // namespace
 
 Decision Approach::step(const Situation& situation, MissionState& memory) {
@@ -27,14 +20,10 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   const RelativeState relative = relate(*situation.vehicle, target);
   Decision decision;
   decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), memory, *params_);
-  if (!target.sign_trusted) {
+  if (!target.sign_trusted || !target.approach_forbidden.empty()) {
     decision.event = Event::kMisaligned;
-    decision.reason = "sign of the window's yaw unknown again";
-    return decision;
-  }
-  if (!target.approach_forbidden.empty()) {
-    decision.event = Event::kMisaligned;
-    decision.reason = "approach forbidden: " + target.approach_forbidden;
+    decision.reason = target.sign_trusted ? "approach forbidden: " + target.approach_forbidden
+                                          : "sign of the window's yaw unknown again";
     return decision;
   }
   const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);

@@ -28,11 +28,8 @@ Decision BackOff::step(const Situation& situation, MissionState& memory) {
 }
 
 Decision BackOff::withoutNormal(const MissionState& memory) const {
-  Decision decision;
-  decision.keeps_place = true;
-  decision.event = hasRetriesLeft(memory, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
-  decision.reason = "no trusted normal to go back along";
-  return decision;
+  const Event event = hasRetriesLeft(memory, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
+  return {{}, true, event, "no trusted normal to go back along"};
 }
 
 std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,

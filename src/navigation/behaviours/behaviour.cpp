@@ -66,6 +66,12 @@ void MissionState::forgetPlaces() {
   keeping_since_sec.reset();
 }
 
+double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
+  if (!condition) since_sec.reset();
+  if (condition && !since_sec) since_sec = now_sec;
+  return since_sec ? now_sec - *since_sec : -1.0;
+}
+
 void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory) {
   if (!memory.trusted || !situation.vehicle) return;
   const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
@@ -81,11 +87,7 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionStat
   ++memory.others;
   if (target.window_id != 0) memory.given_up.push_back(target.window_id);
   memory.leaveWindow();
-  Decision decision;
-  decision.keeps_place = true;
-  decision.event = Event::kOtherWindow;
-  decision.reason = target.approach_forbidden;
-  return decision;
+  return Decision{{}, true, Event::kOtherWindow, target.approach_forbidden};
 }
 
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory) {

@@ -80,6 +80,9 @@ class Behaviour {
   const NavigatorParams* params_;
 };
 
+/// For how long a condition has held, updating when it began; negative if it does not.
+double heldSec(bool condition, double now_sec, std::optional<double>& since_sec);
+
 /// On which side of the window the vehicle is, for when its place will be forgotten.
 void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory);
 

@@ -63,11 +63,7 @@ std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionSt
   const std::string why = whyClosed(target);
   if (why.empty()) return std::nullopt;
   memory.giveUpWindow(target);
-  Decision decision;
-  decision.keeps_place = true;
-  decision.event = Event::kOtherWindow;
-  decision.reason = why;
-  return decision;
+  return Decision{{}, true, Event::kOtherWindow, why};
 }
 
 double lookAside(double waiting_sec, const CommitCriterion& criterion, const CommitParams& params) {
