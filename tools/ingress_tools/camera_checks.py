@@ -42,6 +42,6 @@ def check_mounting(system, report):
     at = ", ".join(f"{value:+.2f}" for value in T_base_camera[:3, 3])
     if forward[0] < LOOKS_FORWARD or down[2] > -LOOKS_FORWARD:
         report.error(f"tf: {camera} does not look forward: its z axis is ({forward[0]:+.2f}, {forward[1]:+.2f}, {forward[2]:+.2f}) in {base}; "
-                     "an optical frame has z forward, x right, y down", "give the optical frame, or camera_pose:=[x,y,z,yaw,pitch,roll]", [camera])
+                     "an optical frame has z forward, x right, y down", "give the optical frame, or camera_pose:=x,y,z,yaw,pitch,roll", [camera])
     else:
         report.ok(f"tf: {camera} at ({at}) m in {base}, looks forward")

@@ -18,7 +18,7 @@ REMEDIES = (
     ("frames differ", "give image and camera_info of one camera, under one frame_id"),
     ("stamps of image and", "give image and camera_info of one camera; let one clock stamp both"),
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
-    ("not in tf", f"{AGAIN} camera_pose:=[x,y,z,yaw,pitch,roll] camera_frame:=FRAME_OF_THE_IMAGES, "
+    ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
     ("the budget is", "let the camera send smaller images, or fewer a second: doc/detection.md, 'What it costs'"),
     ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),

@@ -77,7 +77,7 @@ TEST(SubpixelBorder, SpreadIsHonestForNoise) {
     SubpixelBorder fit;
     fit.project(profiles, Eigen::Vector3f(90, 110, 125).normalized());
     FittedBorder border;
-    ASSERT_TRUE(fit.run({2.5, 1e3, 0.6, 0.03}, border));
+    ASSERT_TRUE(fit.run({2.5, 1e3, 0.6}, border));
     squares += std::pow((border.line.at(border.middle()) + row - 100.0) / border.sigma_px, 2) / trials;
   }
   EXPECT_GT(squares, 0.3);
