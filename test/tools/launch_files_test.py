@@ -597,14 +597,14 @@ def test_size_and_corners_are_given_as_to_the_tools(name, tmp_path):
         assert params[corners] == [40.5, 30, 120, 30, 120, 90, 40, 90]
 
 
-def test_a_recording_that_is_there_is_replaced_only_where_that_is_asked_for(tmp_path):
+@pytest.mark.parametrize("name, argument", [("sim", "record"), ("demo", "bag")])
+def test_a_recording_that_is_there_is_replaced_only_where_that_is_asked_for(tmp_path, name, argument):
     bag = tmp_path / "flight.bag"
-    launch = ROOT / "launch/sim.launch", f"record:={bag}"
+    launch = ROOT / f"launch/{name}.launch", f"{argument}:={bag}"
     assert run("roslaunch", "--nodes", *launch).returncode == 0
     bag.write_text("of another flight")
     assert f"record:={bag} is there already: overwrite:=true replaces it" in refusal(*launch)
     assert run("roslaunch", "--nodes", *launch, "overwrite:=true").returncode == 0
-    assert run("roslaunch", "--nodes", ROOT / "launch/demo.launch", f"bag:={bag}").returncode == 0
 
 
 def recorded(*arguments):

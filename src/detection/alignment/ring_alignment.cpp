@@ -68,7 +68,7 @@ RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
   if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
   RingMatch match;
-  if (seen >= RingView::kMinSeen) match = matchOf(view_);
+  if (seen >= RingView::kMinSeen) match = judgement_.of(view_);
   match.correlation = beyondChance(match.correlation);
   return match;
 }

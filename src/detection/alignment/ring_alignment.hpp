@@ -68,6 +68,7 @@ class RingAlignment {
   std::array<SideSigma, 4> sidesOf(const Eigen::Matrix3d& map) const;
 
   RingView view_;
+  RingScore judgement_;
   std::optional<RectanglePrior> prior_;
   bool leaves_out_ = false;    ///< what may be covered: a rectangle of known shape is known by three sides
   std::optional<int> hidden_;  ///< side that is left out

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "detection/alignment/ring_view.hpp"
 
 namespace window_ingress::detection {
@@ -14,8 +16,25 @@ struct RingMatch {
 };
 
 /// How far what a view shows is what the reference shows, also where something stands before the ring:
-/// samples that differ far more than most count less.
-/// \param view of the place, with all its samples; their weights are changed
-RingMatch matchOf(RingView& view);
+/// samples that differ far more than most count less. Keeps its memory.
+class RingScore {
+ public:
+  /// \param view of the place, with all its samples; their weights are changed
+  RingMatch of(RingView& view);
+
+ private:
+  /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
+  struct Share {
+    double alike, weight, covered_weight, gain, variance;  ///< variance: of the logarithm of the gain
+    double faithful;                                       ///< of `alike`
+  };
+  void shareOut(const RingView& view);
+  double weighContrasts();
+
+  std::vector<Share> shares_;
+  std::vector<WeightedPart> parts_;
+  RingCorrelation correlation_;
+  std::vector<float> gains_;
+};
 
 }  // namespace window_ingress::detection

@@ -74,9 +74,11 @@ geometry::Quadrilateral boundingQuad(const std::vector<cv::Point>& outline) {
 
 }  // namespace
 
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull) {
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
+                                                     std::vector<Vector2d>& buffer) {
   if (hull.size() < 4) return std::nullopt;
-  std::vector<Vector2d> polygon;
+  std::vector<Vector2d>& polygon = buffer;
+  polygon.clear();
   for (const cv::Point& p : hull) polygon.emplace_back(p.x, p.y);
   while (polygon.size() > 4)
     if (!removeCheapestSide(polygon)) return std::nullopt;
@@ -94,7 +96,7 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
   cv::approxPolyDP(hull_, polygon_, params_.epsilon * cv::arcLength(hull_, true), true);
   std::optional<geometry::Quadrilateral> quad;
   if (polygon_.size() == 4) quad = geometry::canonical(toQuad(polygon_));
-  if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_);
+  if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_, lines_);
   const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
   if (excess > kHullExcess) {
     result_.rejected.push_back({boundingQuad(outline), source_, RejectReason::kCorners,

@@ -11,7 +11,9 @@ namespace window_ingress::detection {
 
 /// Four lines round a convex polygon: removes the side that adds least area until four are left.
 /// \return nothing if fewer than four points are given or the lines do not close
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull);
+/// \param buffer memory for its work
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
+                                                     std::vector<Eigen::Vector2d>& buffer);
 
 /// Closed contours to quadrilaterals (P7).
 class ContourPolygons {
@@ -40,6 +42,7 @@ class ContourPolygons {
   std::vector<std::vector<cv::Point>> outlines_;
   std::vector<cv::Vec4i> tree_;
   std::vector<cv::Point> hull_, polygon_;
+  std::vector<Eigen::Vector2d> lines_;
   Result result_;
 };
 

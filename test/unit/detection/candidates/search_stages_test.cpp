@@ -137,10 +137,11 @@ TEST(ContourPolygons, ACircleHasNoFourCorners) {
 TEST(ContourPolygons, FourLinesRoundARoundedRectangle) {
   std::vector<cv::Point> hull = {{20, 10},  {100, 10}, {110, 20}, {110, 80},
                                  {100, 90}, {20, 90},  {10, 80},  {10, 20}};
-  const auto quad = quadRoundHull(hull);
+  std::vector<Eigen::Vector2d> buffer;
+  const auto quad = quadRoundHull(hull, buffer);
   ASSERT_TRUE(quad);
   EXPECT_LT(test::worstCorner(*quad, test::rectangle(10, 10, 110, 90)), 1e-9);
-  EXPECT_FALSE(quadRoundHull({{0, 0}, {5, 0}, {0, 5}}));
+  EXPECT_FALSE(quadRoundHull({{0, 0}, {5, 0}, {0, 5}}, buffer));
 }
 
 TEST(ContourPolygons, SaysSoWhenThereAreTooMany) {
