@@ -25,7 +25,7 @@ require_localhost() {
 # show_usage LINES ARGUMENT: the script's head; ends with 0 where it was asked for, with 2 where something was mistyped.
 show_usage() {
   [[ $2 != --help && $2 != -h ]] || { sed -n "2,$1s/^# //p" "$0"; exit 0; }
-  { [ -z "$2" ] || echo "${0##*/}: unknown argument '$2'"; sed -n "2,$1s/^# //p" "$0"; } >&2
+  { [ -z "$2" ] || echo "${0##*/}: unknown option '$2'"; sed -n "2,$1s/^# //p" "$0"; } >&2
   exit 2
 }
 

@@ -32,7 +32,7 @@ def anchors(text):
 
 def test_every_reason_of_refusal_is_explained():
     source = (ROOT / "src/detection/detection_trace.cpp").read_text(encoding="utf-8")
-    names = set(re.findall(r'return \{"(\w+)"', source)) - {"none", "unknown"}
+    names = set(re.findall(r'^    \{"(\w+)", "', source, flags=re.M)) - {"none", "unknown"}
     table = dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", (ROOT / "doc/detection.md").read_text(encoding="utf-8"), flags=re.M))
     page = dict(re.findall(r'^    "(\w+)": "(.+)",$', (ROOT / "tools/report_replay.py").read_text(encoding="utf-8"), flags=re.M))
     assert len(names) > 15 and names <= set(table)

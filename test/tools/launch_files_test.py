@@ -157,7 +157,7 @@ def test_what_flies_without_saying_sizes_is_told_by_which_it_flies(tmp_path):
     said = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch").stderr
     for warning in ("the opening's size is not said: ", "taken for 1.2 x 1 m", "the vehicle's size is not said: ", "no reference image"):
         assert warning in said, said
-    for quiet in (["ingress", "fly:=false"], ["sim"], ["rehearse"], ["replay", "bag:=x.bag"], ["replay", "bag:=x.bag", "navigator:=true"]):
+    for quiet in (["ingress", "fly:=false"], ["sim"], ["rehearse"], ["replay", *NEEDED["replay"]], ["replay", *NEEDED["replay"], "navigator:=true"]):
         done = run("roslaunch", "--nodes", ROOT / f"launch/{quiet[0]}.launch", *quiet[1:])
         assert done.returncode == 0 and "warning" not in done.stderr, done.stderr
 

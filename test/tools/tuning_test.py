@@ -264,7 +264,7 @@ def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
     written = tmp_path / "below" / "target.png"
     code, said, errors = answer("make_reference", labelled / "a.png", "--output", written, "--corners", flat(corners_at(*VIEWS[0])))
     assert code == 0 and not errors, errors
-    assert f"config:={written.with_suffix('.yaml')}" in said
+    assert f"config:=\"{written.with_suffix('.yaml')}\"" in said
     kept = yaml.safe_load(written.with_suffix(".yaml").read_text())["window_detector"]["reference"]
     assert kept["picture"] == str(written)
     assert numpy.allclose(kept["corners"], numpy.array(corners_at(*VIEWS[0])).ravel(), atol=0.01)

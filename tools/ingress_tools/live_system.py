@@ -27,6 +27,15 @@ def master():
         return None
 
 
+class Patience(xmlrpc.client.Transport):
+    """Waits no longer than that for an answer: rospy.init_node makes a minute of the sockets' default."""
+
+    def make_connection(self, host):
+        connection = super().make_connection(host)
+        connection.timeout = PATIENCE_S
+        return connection
+
+
 class Graph:
     """Who is registered, and what with."""
 
@@ -58,7 +67,7 @@ class Graph:
         if node in self._silent:
             return None
         try:
-            api = xmlrpc.client.ServerProxy(self._master.lookupNode(node))
+            api = xmlrpc.client.ServerProxy(self._master.lookupNode(node), transport=Patience())
             code, _, answer = getattr(api, question)(CALLER)
             return answer if code == 1 else None
         except (OSError, rosgraph.MasterException, xmlrpc.client.Error):

@@ -20,7 +20,8 @@ REMEDIES = (
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
     ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
-    ("the budget is", "let the camera send smaller images, or fewer a second: doc/detection.md, 'What it costs'"),
+    ("the budget is", "let the camera send smaller images, or fewer a second; most goes into 'reference' where other rectangles "
+                      "than the target are in view: doc/detection.md, 'What it costs'"),
     ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),
     ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
     ("times as wide as it is high", WRONG_SIZE),
