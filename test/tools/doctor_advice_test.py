@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import socket
+import time
 import types
 
 import pytest
@@ -311,3 +312,21 @@ def test_helps_before_the_package_is_built():
     done = call(ROOT / "tools/doctor", "--help", env=env)
     assert done.returncode == 0 and "the command that mends it" in done.stdout, done
     assert call(ROOT / "tools/doctor", env=env).returncode == 2
+
+
+def test_a_node_that_hangs_is_waited_for_once_and_shortly(monkeypatch):
+    """Whatever rospy makes of the default of sockets."""
+    monkeypatch.setattr(live_system, "PATIENCE_S", 0.3)
+    with socket.create_server(("localhost", 0)) as hangs:  # takes connections, answers nothing
+        master = types.SimpleNamespace(getSystemState=lambda: ([], [], []), getTopicTypes=list,
+                                       lookupNode=lambda _: f"http://localhost:{hangs.getsockname()[1]}")
+        graph = live_system.Graph(master)
+        before = socket.getdefaulttimeout()
+        socket.setdefaulttimeout(60.0)
+        try:
+            begin = time.monotonic()
+            assert not graph.answers("/hangs") and time.monotonic() - begin < 3.0
+            begin = time.monotonic()
+            assert graph.subscriptions("/hangs") == {} and time.monotonic() - begin < 0.1
+        finally:
+            socket.setdefaulttimeout(before)
