@@ -77,6 +77,7 @@ int viewsFound(WindowDetector& detector, unsigned seed, int trials) {
     const cv::Mat image = views.draw(views.pose(), &opening);
     const auto window = detector.detect(image, 0.1 * i);
     if (window && test::worstCorner(window->corners, opening) < 0.5) ++found;
+    EXPECT_EQ(window.has_value(), detector.trace().target >= 0) << "view " << i;
   }
   return found;
 }
@@ -132,6 +133,7 @@ TEST(WindowDetector, TheReferenceChoosesAmongWindowsOfDifferentPaint) {
   EXPECT_LT(test::worstCorner(window->corners, target.opening), 0.3);
   test::fillQuad(image, test::grown(target.opening, 15), target.wall);
   EXPECT_FALSE(detector.detect(image, 1.6)) << "only the decoy is left";
+  EXPECT_LT(detector.trace().target, 0);
   detector.clearReference();
   EXPECT_TRUE(detector.detect(image, 1.7));
 }
