@@ -279,6 +279,15 @@ class MissionActionTest(unittest.TestCase):
         self.assertTrue(enable(True).success)
         self.setpoints.wait(support.is_zero, "zeros in IDLE")
 
+    def test_disabled_before_its_first_step_it_does_not_fly(self):
+        for _ in range(5):
+            support.wait_for(lambda: call("start").success, "a mission that starts")
+            begin = time.monotonic()
+            self.assertIn("aborted, ", enable(False).message)
+            self.states.wait(lambda s: s.state_name == "ABORTED", "the end of the mission", begin=begin)
+            call("reset")
+            enable(True)
+
     def documented_client(self, before=""):
         page = pathlib.Path(rospkg.RosPack().get_path("window_ingress")) / "doc/ros_api.md"
         if not page.is_file():

@@ -74,7 +74,8 @@ class BagCheck {
     if (isLeftToRosbag()) return;
     for (std::uint64_t place = kMagicSize; place < size_;) place = checkRecord(place);
     const bool is_empty = index_place_ == size_;  // a bag into which nothing was recorded
-    if (!is_empty && records_.count(index_place_) == 0) throw Damage{"the index does not begin where it is said to"};
+    if (!is_empty && records_.count(index_place_) == 0)
+      throw Damage{"the index does not begin where it is said to"};
     if (summaries_ != promised_chunks_ || connections_ != promised_connections_)
       throw Damage{"its index is cut off"};
     for (const std::uint64_t place : named_chunks_)

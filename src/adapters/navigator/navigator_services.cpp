@@ -34,7 +34,7 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
 }
 
 navigation::Reply NavigatorNode::abortMission(const std::string& why) {
-  if (isLeftToOthers()) return {true, "nothing to abort: disabled (~enable)"};
+  if (is_disabled_ && whyFlying().empty()) return {true, "nothing to abort: disabled (~enable)"};
   const navigation::Reply reply = navigator_.abort(why);
   if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
   return reply;

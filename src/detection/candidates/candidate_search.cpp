@@ -59,7 +59,10 @@ void CandidateSearch::look(const cv::Mat& level) {
   segments_ = &hough_.run(chains_.run(*map_, undistortion_), level_size_);
   done(watch_, Stage::kLines);
   keepOnSegments(chains_, hough_, level_size_, straight_);
-  outlines_ = {};
+  outlines_.candidates.clear();
+  outlines_.rejected.clear();
+  outlines_.contours = 0;
+  outlines_.budget_exceeded = false;
   outline(straight_, CandidateSource::kContour);
   done(watch_, Stage::kOutlines);
 }

@@ -21,13 +21,14 @@ class EdgeDilation {
   /// \param edges CV_8UC1. The result stays valid until the next call.
   const cv::Mat& run(const cv::Mat& edges) {
     const int side = 2 * radiusPx(edges.size()) + 1;
-    cv::dilate(edges, dilated_, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+    if (kernel_.rows != side) kernel_ = cv::getStructuringElement(cv::MORPH_RECT, {side, side});
+    cv::dilate(edges, dilated_, kernel_);
     return dilated_;
   }
 
  private:
   ClosingParams params_;
-  cv::Mat dilated_;
+  cv::Mat dilated_, kernel_;
 };
 
 }  // namespace window_ingress::detection

@@ -55,8 +55,10 @@ const cv::Mat& Preprocess::coloursAlone() {
 }
 
 const cv::Mat& Preprocess::paintAlone(const Eigen::Vector3f& paint) {
-  colours_.release();
-  if (smooth_.channels() != 3) return colours_;
+  if (smooth_.channels() != 3) {
+    colours_.release();
+    return colours_;
+  }
   colours_.create(smooth_.size(), CV_8UC1);
   for (int y = 0; y < smooth_.rows; ++y) {
     const auto* pixels = smooth_.ptr<cv::Vec3b>(y);

@@ -179,13 +179,13 @@ void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* len
 
 void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                             double size_px) {
-  const double radius_px = kFoundWithinPx * scaleOf(image), half = 0.5 * border.length();
+  const double scale = scaleOf(image), radius_px = kFoundWithinPx * scale, half = 0.5 * border.length();
   const int count = std::clamp(static_cast<int>(border.length()), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
                {border.from, border.to, count, kSkip, static_cast<int>(std::ceil(radius_px)) + 4});
   FittedBorder edge;
-  const double outlier_px = kRoughPx * scaleOf(image);
-  if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run({radius_px, kPriorPx * scaleOf(image), outlier_px}, edge) ||
+  const SubpixelBorderLimits limits{radius_px, kPriorPx * scale, kRoughPx * scale};
+  if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run(limits, edge) ||
       edge.inliers < kMinInliers * count || std::abs(edge.line.offset) < kSameApartPx)
     return learn(image, lens, border, size_px);
   learn(image, lens, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))},
