@@ -12,7 +12,6 @@ namespace window_ingress::navigation {
 
 namespace {
 
-constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
 // From the measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
 constexpr double kGustSec = 3.0;       // that gusts come and go in: of few, the strongest was not among them
@@ -170,9 +169,8 @@ CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const
   criterion.fullness =
       std::max(fullnessOf(offset.y() + lateral_m, criterion.clearance_lateral_m + criterion.funnel_m),
                fullnessOf(offset.z() + vertical_m, criterion.clearance_vertical_m + criterion.funnel_m));
-  criterion.openness = std::clamp((1.0 - criterion.fullness) / kWallOfFunnel, 0.0, 1.0);
   criterion.in_funnel =
-      criterion.openness > 0.0 && criterion.clearance_lateral_m > 0.0 && criterion.clearance_vertical_m > 0.0;
+      criterion.fullness < 1.0 && criterion.clearance_lateral_m > 0.0 && criterion.clearance_vertical_m > 0.0;
   criterion.unmet = whyUnmet(criterion, input, params);
   criterion.holds = criterion.unmet.empty();
   return criterion;

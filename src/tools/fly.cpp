@@ -16,7 +16,7 @@
 
 #include "command_line.hpp"
 #include "evaluation/flights/flight_picture.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 #include "evaluation/output_file.hpp"
 #include "fly_job.hpp"
 #ifdef WINDOW_INGRESS_WITH_ROS
@@ -70,6 +70,8 @@ class FlyResults {
                               std::to_string(flights.size()) + " flights";
     evaluation::writeImage(folder_ / "tracks.png",
                            evaluation::drawTracks(flights, outlineOf(scenario), title));
+    std::printf("%d of %zu flights passed: flights.csv, tracks.csv, tracks.png and summary.json in %s\n",
+                passed_, flights.size(), folder_.c_str());
   }
 
  private:

@@ -10,7 +10,7 @@
 #include "evaluation/csv.hpp"
 #include "evaluation/flights/campaign.hpp"
 #include "evaluation/flights/closed_loop_flight.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 #include "size_checks.hpp"
 
 namespace window_ingress::tools {

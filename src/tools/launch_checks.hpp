@@ -29,6 +29,12 @@ inline std::string contentOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+inline std::string beginningOf(const std::filesystem::path& file, std::size_t bytes) {
+  std::string beginning(bytes, ' ');
+  std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(bytes));
+  return beginning;
+}
+
 /// The command of the process that started this one.
 inline std::vector<std::string> wordsOfParent() {
   std::istringstream stream(contentOf("/proc/" + std::to_string(getppid()) + "/cmdline"));
@@ -92,7 +98,11 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
                                 : "";
   if (!words.empty())
     return (", " + words + ",").find(", " + value + ",") == std::string::npos ? "give one of " + words : "";
-  if (isNumber(argument.standard)) return isNumber(value) ? "" : "give a number";
+  if (isNumber(argument.standard)) {
+    if (!isNumber(value)) return "give a number";
+    const bool has_sign = argument.doc.find("above 0") != std::string::npos;
+    return has_sign && !(std::strtod(value.c_str(), nullptr) > 0.0) ? "give a number above 0" : "";
+  }
   const bool is_path = !value.empty() && value != argument.standard && value[0] != '/';
   if (!is_path || argument.doc.find("whole path") == std::string::npos) return "";
   return wholePathOf(value);
@@ -127,14 +137,19 @@ inline std::vector<std::pair<std::string, std::string>> assignmentsIn(const std:
   return given;
 }
 
-/// The files that are not there, of one or of several with blanks between.
-inline std::vector<std::string> missingOf(const std::string& files) {
-  std::vector<std::string> missing;
-  if (std::filesystem::exists(files)) return missing;
+/// One file, or several with blanks between.
+inline std::vector<std::string> filesIn(const std::string& files) {
+  if (std::filesystem::exists(files)) return {files};
   std::istringstream stream(files);
-  for (std::string file; stream >> file;)
-    if (file[0] == '/' && !std::filesystem::exists(file)) missing.push_back(file);
-  return missing;
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// Why an argument whose text wants this kind of file cannot be this one; empty if nothing speaks against it.
+inline std::string whyNotFile(const std::string& doc, const std::string& file) {
+  if (file[0] != '/') return "";  // is refused as a relative path
+  if (!std::filesystem::exists(file)) return "no such file";
+  const bool is_bag = beginningOf(file, 8) == "#ROSBAG ";
+  return doc.rfind("existing bag ", 0) == 0 && !is_bag ? "is no bag file" : "";
 }
 
 /// What goes by the argument beside the nodes that read the file: the guard, rviz, a player of bags.
@@ -146,8 +161,9 @@ inline void checkAgrees(const std::string& argument, const std::string& given, c
                    given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
 }
 
-/// \throws InputError that names each file of arguments whose text wants an "existing" one, and that is not
-/// there, and each folder that is not there of those whose text says what comes "into" it
+/// \throws InputError that names each file:/// and each file of arguments whose text wants an "existing" one,
+/// that is not there or is no bag, and each folder that is not there of those whose text says what comes
+/// "into" it
 inline void checkFilesAreThere(const std::vector<std::string>& words, const std::filesystem::path& launch) {
   std::vector<std::string> faults;
   for (const auto& argument : argumentsOf(launch))
@@ -155,8 +171,11 @@ inline void checkFilesAreThere(const std::vector<std::string>& words, const std:
       if (name != argument.name) continue;
       const std::string said = launch.filename().string() + ": " + name + ":=";
       const std::string folder = std::filesystem::path(value).parent_path();
-      if (argument.doc.rfind("existing ", 0) == 0)
-        for (const auto& file : missingOf(value)) faults.push_back(said + file + ": no such file");
+      const bool is_url = value.rfind("file:///", 0) == 0;
+      if (argument.doc.rfind("existing ", 0) == 0 || is_url)
+        for (const auto& file : filesIn(is_url ? value.substr(7) : value))
+          if (const auto why = whyNotFile(argument.doc, file); !why.empty())
+            faults.push_back(said + file + ": " + why);
       if (argument.doc.find("into,") != std::string::npos && !folder.empty() &&
           !std::filesystem::is_directory(folder))
         faults.push_back(said + value + ": no such folder: mkdir -p " + folder);

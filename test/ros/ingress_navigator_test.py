@@ -70,6 +70,14 @@ class IngressNavigatorTest(unittest.TestCase):
     def test_start_without_data_lists_what_is_missing(self):
         self.assertIn("odom", support.wait_for(self.refused, "a start without data that is refused"))
 
+    def test_start_names_the_nodes_before_it_that_do_not_run(self):
+        silent = "window_detector says nothing on /diagnostics: does it run?"
+        support.wait_for(lambda: silent in (self.refused() or ""), "an answer that names the detector")
+        status = DiagnosticStatus(DiagnosticStatus.OK, "window_detector: image", "", "", [])
+        self.streams["diagnostics"] = support.Stream("/diagnostics", DiagnosticArray, lambda _: DiagnosticArray(status=[status]), 10.0)
+        support.wait_for(lambda: silent not in (self.refused() or silent), "an answer that does not")
+        self.assertIn("homography_pose says nothing", self.refused())
+
     def test_start_names_what_the_nodes_before_it_lack(self):
         lacks = {"window_detector: image": "no image on /image_raw", "window_detector: camera_info": "no camera_info on /camera_info",
                  "homography_pose: imu": "no imu on /imu"}

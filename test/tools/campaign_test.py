@@ -22,10 +22,10 @@ def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
     scenario = scenario_in(tmp_path)
     done = run("campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
     assert done.returncode == 0, done.stderr
-    assert "| short | 5 |" in done.stdout
+    assert "| short | 5 |" in done.stdout and f"in {tmp_path}/campaign" in done.stdout and "flights passed" not in done.stdout
     whole = run("fly", "--scenario", scenario, "--seeds", "1..5", "--jobs", "2", "--output",
                 tmp_path / "whole")
-    assert whole.returncode == 0, whole.stderr
+    assert whole.returncode == 0 and "0 of 5 flights passed: flights.csv" in whole.stdout and f"in {tmp_path}/whole" in whole.stdout, whole.stderr
     for name in FILES:
         assert (tmp_path / "campaign/short" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
     assert json.loads((tmp_path / "whole/summary.json").read_text())["flights"] == 5

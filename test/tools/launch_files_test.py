@@ -353,11 +353,22 @@ def test_rviz_without_a_display_ends_the_launch_before_anything_starts(words):
 
 @pytest.mark.parametrize("name, argument", [("replay", "bag:={0}/there.bag {0}/none.bag"), ("rehearse", "video:={0}/none.bag"), ("view", "bag:={0}/none.bag")])
 def test_a_recording_that_is_not_there_is_named_before_anything_starts(tmp_path, name, argument):
-    (tmp_path / "there.bag").write_text("")
+    (tmp_path / "there.bag").write_text("#ROSBAG V2.0\n")
     done = run("roslaunch", "window_ingress", f"{name}.launch", argument.format(tmp_path))
     assert done.returncode == 1 and "started with pid" not in done.stdout
     assert f"{name}.launch: {argument.split(':=')[0]}:={tmp_path}/none.bag: no such file\n" in done.stderr, done.stderr
     assert "there.bag" not in done.stderr
+
+
+@pytest.mark.parametrize("words, said", [
+    ("replay.launch bag:={0}/text", "replay.launch: bag:={0}/text: is no bag file"),
+    ("replay.launch bag:={0}/text rate:=0", "replay.launch: rate:=0: give a number above 0"),
+    ("rehearse.launch calibration:=file://{0}/none.yaml", "rehearse.launch: calibration:={0}/none.yaml: no such file")])
+def test_what_cannot_be_played_is_named_before_anything_starts(tmp_path, words, said):
+    (tmp_path / "text").write_text("no bag\n")
+    done = run("roslaunch", "window_ingress", *words.format(tmp_path).split())
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    assert f"check_overlay: {said.format(tmp_path)}\n" in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("name, argument", [("sim", "record"), ("external", "verdict_file"), ("demo", "bag"), ("record", "name")])

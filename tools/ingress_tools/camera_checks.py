@@ -11,9 +11,8 @@ def check_calibration(system, report):
     if not info:
         return
     size = system.samples[image].image_size() if image else None
-    calibrate = "calibrate the camera: doc/window.md"
     if not any(info.K):
-        report.error(f"{topic}: not calibrated, K is all zero", calibrate, [topic])
+        report.error(f"{topic}: not calibrated, K is all zero", remedy("uncalibrated"), [topic])
     elif size and size != (info.width, info.height):
         report.error(f"{topic}: for {info.width}x{info.height}, the image on {image} has {size[0]}x{size[1]}", remedy("sizes differ"), [topic])
     else:

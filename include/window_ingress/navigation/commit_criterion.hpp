@@ -47,7 +47,6 @@ struct CommitCriterion {
   double commit_distance_m = 0.0;
   double funnel_m = 0.0;   ///< by how much the funnel is wider than the clearance at this distance
   double fullness = 0.0;   ///< offset as it is and its spread, over the funnel's half width; 1 at its wall
-  double openness = 0.0;   ///< 1 well within the funnel, 0 at its wall or outside: scales the forward speed
   bool in_funnel = false;  ///< the offsets as they are, and their spread, within clearance + funnel
   /// Both misses within the clearance, and the offset too: straight on would also do; heading along the
   /// normal, little sideways speed.

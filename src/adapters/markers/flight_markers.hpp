@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/time.h>
+#include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <string>
@@ -11,6 +12,11 @@
 #include "window_ingress/navigation/navigator_params.hpp"
 
 namespace window_ingress::adapters {
+
+/// A state of the navigator: the colours of plot_flight (tools/ingress_tools/flight_data.py).
+std_msgs::ColorRGBA colourOf(navigation::State state, double alpha = 1.0);
+
+constexpr int kSetpointRgb = 0xff3fa4;  ///< what the navigator wishes
 
 /// The way flown, with the state at each place. Bounded: when it is full, every other place is dropped.
 class FlightTrail {

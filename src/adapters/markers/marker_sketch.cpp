@@ -11,18 +11,6 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr int kStateRgb[navigation::kStateCount] = {
-    0xaaaaaa,  // IDLE
-    0x9b59b6,  // SEARCH
-    0x1f5fa8,  // ALIGN
-    0x56c1e8,  // APPROACH
-    0xe67e22,  // COMMIT
-    0x2e9e4f,  // PASSED
-    0xd0312d,  // BACK_OFF
-    0xf1c40f,  // HOLD
-    0x000000,  // ABORTED
-};
-
 using visualization_msgs::Marker;
 
 constexpr double kLineWidthM = 0.025, kTextHeightM = 0.14;
@@ -50,10 +38,6 @@ std_msgs::ColorRGBA colourOf(int rgb, double alpha) {
   colour.b = static_cast<float>(rgb & 0xff) / 255.0F;
   colour.a = static_cast<float>(alpha);
   return colour;
-}
-
-std_msgs::ColorRGBA colourOf(navigation::State state, double alpha) {
-  return colourOf(kStateRgb[static_cast<std::size_t>(state)], alpha);
 }
 
 MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id)

@@ -30,6 +30,8 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
                                engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec())})
     if (health.level == Health::kError) reply.message += "; " + health.text;
   for (const std::string& fault : upstream_.texts()) reply.message += "; " + fault;
+  if (pose_health_.health().level == Health::kError)
+    for (const std::string& fault : upstream_.silentNodes()) reply.message += "; " + fault;
   return reply;
 }
 

@@ -32,6 +32,15 @@ class UpstreamFaults {
     return texts;
   }
 
+  /// One for each node that has said nothing of itself for a while.
+  std::vector<std::string> silentNodes() const {
+    std::vector<std::string> texts;
+    for (const auto& [node, heard_sec] : heard_sec_)
+      if (steadyNowSec() - heard_sec > kForgottenSec)
+        texts.push_back(node + " says nothing on /diagnostics: does it run?");
+    return texts;
+  }
+
  private:
   static constexpr double kForgottenSec = 3.0;  // diagnostics come once a second
   static constexpr std::size_t kLongestText = 200;
@@ -45,16 +54,21 @@ class UpstreamFaults {
   void hear(const diagnostic_msgs::DiagnosticArray& message) {
     const std::string& space = ros::this_node::getNamespace();
     const std::string own = space.size() > 1 ? space.substr(1) + "/" : "";
-    for (const auto& status : message.status)
+    for (const auto& status : message.status) {
+      for (auto& [node, heard_sec] : heard_sec_)
+        if (status.name.rfind(own + node + ": ", 0) == 0) heard_sec = steadyNowSec();
       for (const char* input : kInputs)
         if (status.name == own + input) {
           faults_.erase(input);
           if (status.level >= diagnostic_msgs::DiagnosticStatus::ERROR)
             faults_[input] = {steadyNowSec(), status.message.substr(0, kLongestText)};
         }
+    }
   }
 
   std::map<std::string, Fault> faults_;  // by the name of the status
+  std::map<std::string, double> heard_sec_{{"window_detector", steadyNowSec()},
+                                           {"homography_pose", steadyNowSec()}};
   ros::Subscriber subscriber_;
 };
 

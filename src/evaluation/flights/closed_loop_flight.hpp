@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "evaluation/flights/flight_observer.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 #include "simulation/world.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/text/text.hpp"

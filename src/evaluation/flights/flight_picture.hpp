@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "evaluation/flights/flight_observer.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -11,7 +11,7 @@ constexpr double kNearAxisM = 0.3;
 constexpr double kFunnelDwellSec = 0.2;  // within the funnel, before going on
 constexpr double kAmbiguousSec = 1.2;    // of the yaw's sign, before a height probe
 constexpr double kProbeMps = 0.4;
-constexpr double kWellInFunnel = 0.15;  // of its openness
+constexpr double kWellInFunnel = 0.9475;  // of its half width
 }  // namespace
 
 void HeightProbe::beginAt(double height_m) {
@@ -91,7 +91,7 @@ Decision Align::resolveSign(const Situation& situation, const MissionState& memo
 bool Align::isNearAxis(const RelativeState& relative, const CommitCriterion& criterion,
                        bool is_forbidden) const {
   if (is_forbidden && std::abs(relative.lateral()) < kNearAxisM) return true;
-  if (!pacer_.isStepped()) return criterion.openness >= kWellInFunnel;
+  if (!pacer_.isStepped()) return criterion.fullness <= kWellInFunnel;
   return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
 }
 

@@ -9,6 +9,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kLooksWithinM = 0.4;
+constexpr double kWallOfFunnel = 0.35;  // of its half width: there the speed shrinks, to zero at the wall
 constexpr double kLeaveFactor = 1.3,
                  kLeaveSec = 0.5;  // out of the funnel by so much, for so long: align again
 
@@ -52,7 +53,8 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
 
 double Approach::forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const {
   const double in_view = std::clamp(1.5 - std::abs(relative.bearing_rad) / 0.3, 0.0, 1.0);
-  const double speed_mps = params_->approach.speed_mps * criterion.openness * in_view;
+  const double in_funnel = std::clamp((1.0 - criterion.fullness) / kWallOfFunnel, 0.0, 1.0);
+  const double speed_mps = params_->approach.speed_mps * in_funnel * in_view;
   const double end_m = criterion.holds ? params_->vehicle.half_length_m : criterion.commit_distance_m;
   const double room_m = relative.distance() - end_m;
   if (room_m < 0.0) return velocityTowards(room_m, params_->back_off.speed_mps, *params_);

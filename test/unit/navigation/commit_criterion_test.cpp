@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
@@ -62,15 +63,14 @@ TEST(CommitCriterion, HoldsOnTheAxisAndSaysWhyNotOffIt) {
 
 TEST(CommitCriterion, FunnelWidensWithTheDistance) {
   for (double lateral = 0.05; lateral < 3.0; lateral += 0.05) {
-    double before = -1.0;
+    double before = std::numeric_limits<double>::infinity();
     for (double distance = 0.5; distance < 8.0; distance += 0.1) {
       const auto criterion = criterionOf(at(distance, lateral));
-      EXPECT_GE(criterion.openness, 0.0);
-      EXPECT_LE(criterion.openness, 1.0);
-      EXPECT_EQ(criterion.in_funnel, criterion.openness > 0.0);
+      EXPECT_GE(criterion.fullness, 0.0);
+      EXPECT_EQ(criterion.in_funnel, criterion.fullness < 1.0);
       if (distance <= 2.5) continue;
-      EXPECT_GE(criterion.openness, before - 1e-9);
-      before = criterion.openness;
+      EXPECT_LE(criterion.fullness, before + 1e-9);
+      before = criterion.fullness;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "adapters/markers/flight_markers.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 
 namespace window_ingress::adapters::marker_colours_test {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
 
 namespace window_ingress::evaluation::closed_loop_flight_test {

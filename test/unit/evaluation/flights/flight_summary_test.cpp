@@ -3,7 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 
 namespace window_ingress::evaluation::flight_summary_test {
 

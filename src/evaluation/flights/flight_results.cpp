@@ -1,4 +1,4 @@
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 
 #include <algorithm>
 #include <cmath>

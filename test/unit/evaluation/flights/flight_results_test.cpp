@@ -1,4 +1,4 @@
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/flights/flight_results.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "evaluation/csv.hpp"
 #include "refusal.hpp"
 
-namespace window_ingress::evaluation::flight_table_test {
+namespace window_ingress::evaluation::flight_results_test {
 
 namespace fs = std::filesystem;
 using simulation::Outcome;
@@ -25,7 +25,7 @@ FlightResult flightWith(std::uint32_t seed) {
   return flight;
 }
 
-class FlightTable : public testing::Test {
+class FlightResults : public testing::Test {
  protected:
   std::string write(const std::string& name, const std::vector<FlightResult>& flights) const {
     const fs::path folder = root_.path / name;
@@ -63,7 +63,7 @@ TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
   EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\",0.0000");
 }
 
-TEST_F(FlightTable, ReadsBackWhatItWrote) {
+TEST_F(FlightResults, ReadsBackWhatItWrote) {
   FlightResult bare;
   bare.seed = 3;
   bare.outcome = Outcome::kTimeout;
@@ -77,7 +77,7 @@ TEST_F(FlightTable, ReadsBackWhatItWrote) {
 }
 
 // Of a full disk, or of a process that was killed: its flights can be gone on with.
-TEST_F(FlightTable, LeavesARowOutThatWasCutOff) {
+TEST_F(FlightResults, LeavesARowOutThatWasCutOff) {
   const fs::path folder = write("a", {flightWith(2)});
   std::ofstream(folder / "flights.csv", std::ios::app) << "3,PASSED,8.500,-0.01";
   std::ofstream(folder / "tracks.csv", std::ios::app) << "3,0.000,1.0000";
@@ -86,7 +86,7 @@ TEST_F(FlightTable, LeavesARowOutThatWasCutOff) {
   EXPECT_EQ(csvRow(read[0]) + trackRows(read[0]), csvRow(flightWith(2)) + trackRows(flightWith(2)));
 }
 
-TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
+TEST_F(FlightResults, JoinsShardsInTheOrderOfTheirSeeds) {
   const auto joined =
       joinFlights({write("a", {flightWith(2), flightWith(4)}), write("b", {flightWith(1), flightWith(3)})});
   ASSERT_EQ(joined.size(), 4u);
@@ -94,7 +94,7 @@ TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
   EXPECT_EQ(joined[2].track.size(), 2u);
 }
 
-TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
+TEST_F(FlightResults, NamesFileAndLineOfWhatIsWrong) {
   const std::string good = write("good", {flightWith(1)});
   EXPECT_TRUE(test::says(error({good, good}), "seed 1 was flown twice"));
   EXPECT_TRUE(test::says(error({"/nowhere"}), "/nowhere/tracks.csv: cannot be read"));
@@ -108,7 +108,7 @@ TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_TRUE(test::says(error({good}), "flights.csv:1: is not 'seed,outcome"));
 }
 
-TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
+TEST_F(FlightResults, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
   const auto errorOf = [&](const std::string& text) {
     return test::refusalOf([&] { readDraws(root_.write("draws.csv", text)); });
   };
@@ -125,4 +125,4 @@ TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
     EXPECT_TRUE(test::says(errorOf(std::string("seed,wind/x_mps\n") + seed + ",0.5"), "is no whole number"));
 }
 
-}  // namespace window_ingress::evaluation::flight_table_test
+}  // namespace window_ingress::evaluation::flight_results_test
