@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <ios>
 #include <sstream>
 #include <type_traits>
@@ -65,6 +66,13 @@ std::string found(const YAML::Node& node) {
   return node.IsSequence() ? "a list" : node.IsMap() ? "a mapping" : "empty";
 }
 
+bool isIndentedByTabs(const std::string& file) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find('\t') < line.find_first_not_of(" \t")) return true;
+  return false;
+}
+
 bool isNumber(const YAML::Node& word) {
   double number = 0.0;
   return YAML::convert<double>::decode(word, number);
@@ -84,7 +92,8 @@ YAML::Node loadYaml(const std::string& file) {
   } catch (const std::ios_base::failure&) {
     throw InputError(file + ": cannot be read; a folder?");
   } catch (const YAML::Exception& error) {
-    throw InputError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
+    throw InputError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg +
+                     (isIndentedByTabs(file) ? "; indent by blanks, yaml takes no tabs" : ""));
   }
 }
 

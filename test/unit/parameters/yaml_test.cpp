@@ -84,6 +84,8 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("inner: {count: 1}\ninner/count: 2\n"),
             file_ + ":2: inner/count: stands here for the second time");
   EXPECT_TRUE(test::says(error("a: [1, 2\n"), "not valid yaml"));
+  EXPECT_FALSE(test::says(error("a: [1, 2\n"), "tabs"));
+  EXPECT_TRUE(test::says(error("a:\n\tb: {c: 1}\n"), "yaml takes no tabs"));
   EXPECT_TRUE(test::says(error("fast: true\n---\nfast: false\n"), "holds 2 documents"));
   EXPECT_TRUE(test::says(error("- 1\n"), "must be a mapping"));
 }
