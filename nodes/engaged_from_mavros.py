@@ -6,6 +6,8 @@ autopilot is a silent topic. The message is read by the definition that comes wi
 Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
 default true: an autopilot that says it is in a failsafe (MAV_STATE critical and worse: low battery, lost link) is not flown.
 
+Says on /diagnostics why the autopilot does not follow: silent, not connected, in a failsafe.
+
 Publishes `companion_status` (mavros_msgs/CompanionProcessStatus) once a second, from the navigator's `state`, where mavros_msgs is
 installed and knows the component USER1: the ground station then sees this computer as stand-by, active or, without a navigator, critical.
 """
@@ -18,6 +20,7 @@ import time
 
 import genpy.dynamic
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_msgs.msg import Bool
 
 from window_ingress.msg import IngressState
@@ -30,17 +33,20 @@ except ImportError:
 FIELDS = ("connected", "armed", "mode")
 LINES = 100  # that wait to be written
 MAV_STATE_CRITICAL = 5  # and above it: emergency, power off, termination
-MAX_SILENCE_S = 2.0  # of the navigator
+MAX_SILENCE_S = 2.0  # of the navigator, or the autopilot
 AT_REST = IngressState.IDLE, IngressState.PASSED, IngressState.ABORTED
 
 
 class Relay:
     def __init__(self, modes, heeds_failsafe):
         self._modes, self._heeds_failsafe, self._class, self._said = modes, heeds_failsafe, None, None
+        self._level, self._heard = DiagnosticStatus.OK, None
         self._lines = queue.Queue(LINES)
         threading.Thread(target=self._speak, daemon=True).start()
         self._publisher = rospy.Publisher("engaged", Bool, queue_size=1, latch=False)
+        self._diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
         self._subscriber = rospy.Subscriber("autopilot_state", rospy.AnyMsg, self._receive, queue_size=1)
+        threading.Thread(target=self._repeat, daemon=True).start()
 
     def _receive(self, message):
         state = self._decode(message)
@@ -52,9 +58,27 @@ class Relay:
         said = f"{'follows' if engaged else 'does not follow'} setpoints: " \
                f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}" \
                f"{', in a failsafe' if fails else ''}"
+        self._level = DiagnosticStatus.ERROR if fails or not state.connected else DiagnosticStatus.OK
+        self._heard = time.monotonic()
         if said != self._said:
             self._say(rospy.loginfo, "the autopilot " + said)
             self._said = said
+
+    def _health(self):
+        if self._heard is None:
+            return DiagnosticStatus.ERROR, f"nothing on {self._subscriber.resolved_name} so far"
+        if time.monotonic() - self._heard > MAX_SILENCE_S:
+            return DiagnosticStatus.ERROR, f"{self._subscriber.resolved_name} has fallen silent"
+        return self._level, f"the autopilot {self._said}"
+
+    def _repeat(self):
+        name = f"{rospy.get_name().lstrip('/')}: autopilot"
+        while not rospy.is_shutdown():
+            time.sleep(1.0)
+            level, text = self._health()
+            message = DiagnosticArray(status=[DiagnosticStatus(level=level, name=name, message=text, hardware_id=rospy.get_name())])
+            message.header.stamp = rospy.Time.now()
+            self._diagnostics.publish(message)
 
     def _say(self, log, text):
         """Never waits for a terminal or a disk: the lines have a thread of their own, and are lost if it stands still."""

@@ -242,6 +242,8 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
                                                          tools::says(overlay, "vehicle/", {"half_height_m"}));
   if (o.fly == "true" || (o.fly.empty() && says_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
+  if (by_hand || (asksForSizes(o) && o.fly == "true"))
+    std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";
 }
 
 // What is wrong with the parameter file is said where it is loaded.

@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -54,6 +56,12 @@ inline std::vector<double> numbersWithin(const std::string& option, const std::s
     if (value < least || value > most)
       throw InputError(option + formatted(": needs numbers from %g to %g", least, most));
   return values;
+}
+
+/// All of a file; empty if it cannot be read.
+inline std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// Makes the folder if it is missing. \throws InputError

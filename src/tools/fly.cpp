@@ -44,6 +44,9 @@ class FlyResults {
         tracks_(folder_ / "tracks.csv") {
     for (const char* of_the_whole : {"summary.json", "tracks.png"})
       std::filesystem::remove(folder_ / of_the_whole);
+    evaluation::OutputFile inputs(folder_ / tools::kInputsFile);
+    inputs << tools::inputsOf(job.asked);
+    inputs.finish();
     rows_ << evaluation::csvHeader() << "\n";
     tracks_ << evaluation::trackHeader() << "\n";
     rows_.finish();  // whoever ends it before the first flight leaves files that can be gone on with
@@ -182,6 +185,7 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
       throw InputError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +
                        ", which is not among those asked for");
   if (flights.empty()) return flights;
+  tools::checkFlownWith(job.asked, folder);
   const std::uint32_t seed = flights.back().seed;
   std::fprintf(stderr, "%zu of %zu flights are there%s; seed %u is flown again to compare\n", flights.size(),
                job.seeds.size(), flights.size() == job.seeds.size() ? ", none is left to fly" : "", seed);
@@ -231,6 +235,7 @@ int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResult
 }
 
 int join(const FlyJob& job) {
+  for (const auto& folder : job.asked.join) tools::checkFlownWith(job.asked, folder);
   const auto flights = evaluation::joinFlights(job.asked.join);
   FlyResults results(job);
   for (const auto& flight : flights) results.add(flight);

@@ -86,6 +86,25 @@ inline std::vector<std::uint32_t> seedsOf(const FlyJob& job) {
   return *shard;
 }
 
+// What decides how flights end, beside the build.
+inline std::string inputsOf(const FlyOptions& o) {
+  std::string text;
+  for (const auto& [option, file] :
+       {std::pair{"scenario", o.scenario}, {"params", o.params}, {"draws", o.draws}})
+    text += std::string("# --") + option + "\n" + (file.empty() ? "" : contentOf(file));
+  return text;
+}
+
+constexpr const char* kInputsFile = "flown_with.txt";
+
+/// \throws InputError if the flights of a folder were flown with something else
+inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
+  const std::string file = folder + "/" + kInputsFile;
+  if (!std::filesystem::exists(file) || contentOf(file) == inputsOf(o)) return;
+  throw InputError(folder + " holds flights with another --scenario, --params or --draws: give those that " +
+                   file + " shows, or another folder");
+}
+
 // Flights that somebody has waited for are not lost to a folder given twice.
 inline void checkOutput(const FlyJob& job) {
   const FlyOptions& o = job.asked;

@@ -24,11 +24,6 @@
 
 namespace window_ingress::tools {
 
-inline std::string contentOf(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 inline std::string beginningOf(const std::filesystem::path& file, std::size_t bytes) {
   std::string beginning(bytes, ' ');
   std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(bytes));

@@ -84,6 +84,20 @@ inline std::string otherSizes(const configuration::Overlay& overlay, const simul
                             "give a scenario with your sizes (window, vehicle)";
 }
 
+/// What will fly through what, for who mistyped a size.
+inline std::string understood(const configuration::Overlay& overlay) {
+  const auto& vehicle = overlay.vehicle;
+  const auto& pose = overlay.homography_pose.pose;
+  const std::string body =
+      formatted("a vehicle of %g x %g x %g m (length, width, height)", 2.0 * vehicle.half_length_m,
+                2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m);
+  if (pose.scale_sigma > 0.0) return body + " through an opening whose size is found out in flight";
+  return body + formatted(" through %g x %g m: %.2f m beside it, %.2f m above and below",
+                          pose.opening_width_m, pose.opening_height_m,
+                          0.5 * pose.opening_width_m - vehicle.half_width_m,
+                          0.5 * pose.opening_height_m - vehicle.half_height_m);
+}
+
 inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
   const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
   const double room_m = 2.0 * vehicle.margin_m;

@@ -66,14 +66,14 @@ class AutopilotTest(unittest.TestCase):
         self.call("reset")
         self.setpoints.wait(what="a stream before the start")
         self.zeros_from(time.monotonic(), LATE_S + STOP_S + 1.0)  # for longer than the guard bears silence
-        support.Diagnostics().wait("ingress_navigator: engaged", "not armed, or not in a mode")
+        support.Diagnostics().wait("ingress_navigator: engaged", "not armed, not in a mode")
         self.companion_is(CompanionProcessStatus.MAV_STATE_STANDBY)
         for type(self).armed, type(self).mode in ((True, "POSCTL"), (False, "OFFBOARD")):
             begin = time.monotonic() + 1.0  # five messages of the autopilot
             support.wait_for(lambda: time.monotonic() > begin, "the autopilot's state to be heard")
             reply = self.call("start")
             self.assertFalse(reply.success)
-            self.assertIn("not armed or not in a mode", reply.message)
+            self.assertIn("not armed, not in a mode", reply.message)
         self.assertEqual(self.fly().header.frame_id, "map")
         self.companion_is(CompanionProcessStatus.MAV_STATE_ACTIVE)
 
@@ -90,7 +90,9 @@ class AutopilotTest(unittest.TestCase):
         type(self).system_status = 5  # critical, e.g. by its battery
         self.states.wait(lambda s: s.state_name == "IDLE", "IDLE in the failsafe")
         self.zeros_from(time.monotonic() + MARGIN_S, 0.5)
-        self.assertFalse(self.call("start").success)
+        in_failsafe = "the autopilot does not follow setpoints: armed, mode OFFBOARD, in a failsafe"
+        support.Diagnostics().wait("engaged_from_mavros: autopilot", in_failsafe)
+        support.wait_for(lambda: in_failsafe in self.call("start").message, "a start that names the failsafe")
         type(self).system_status = 4
         self.fly()
 
@@ -101,6 +103,7 @@ class AutopilotTest(unittest.TestCase):
         reply = self.call("start")
         self.assertFalse(reply.success)
         self.assertIn("/engaged has fallen silent", reply.message)
+        support.wait_for(lambda: "/mavros/state has fallen silent" in self.call("start").message, "a start that names MAVROS's state")
         type(self).states_of_autopilot = support.Stream("/mavros/state", support.AutopilotState, self.state, 5.0)
         self.fly()
 

@@ -103,8 +103,22 @@ def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
     assert fewer.returncode == 2 and "seed 3" in fewer.stderr
     scenario.write_text(SCENARIO.replace("[2, 3]", "[3, 4]").replace("limit_sec: 1.0", "limit_sec: 1.1"))
     other = fly(scenario, out, "--seeds", "1..5", "--resume")
+    assert other.returncode == 2 and f"{out} holds flights with another --scenario, --params or --draws" in other.stderr
+    assert fly(scenario, tmp_path / "whole", "--join", out).returncode == 2
+    (out / "flown_with.txt").unlink()  # as another build
+    other = fly(scenario, out, "--seeds", "1..5", "--resume")
     assert other.returncode == 2 and "seed 3 flown again ends otherwise" in other.stderr
     assert {name: (out / name).read_bytes() for name in FILES} == before
+
+
+def test_flights_with_other_parameters_are_not_gone_on_with_even_if_the_last_one_ends_alike(tmp_path):
+    scenario, out, params = scenario_in(tmp_path), tmp_path / "out", tmp_path / "params.yaml"
+    params.write_text("vehicle: {half_width_m: 0.2}\n")
+    assert fly(scenario, out, "--seeds", "1..3", "--params", params).returncode == 0
+    assert fly(scenario, out, "--seeds", "1..4", "--params", params, "--resume").returncode == 0
+    params.write_text("vehicle: {half_width_m: 0.02}\n")
+    other = fly(scenario, out, "--seeds", "1..5", "--params", params, "--resume")
+    assert other.returncode == 2 and f"give those that {out}/flown_with.txt shows" in other.stderr, other.stderr
 
 
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):

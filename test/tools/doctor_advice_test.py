@@ -97,6 +97,23 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
     assert said.startswith(words) and "arm, and switch" not in said
 
 
+@pytest.mark.parametrize("why, mend", [
+    ("/mavros/state has fallen silent", "see what MAVROS says, "), ("/mavros/state so far", "start MAVROS "),
+    ("the autopilot does not follow setpoints: not connected, armed, mode OFFBOARD", "mend fcu_url:="),
+    ("the autopilot does not follow setpoints: armed, mode OFFBOARD, in a failsafe", "read in the ground station")])
+def test_an_autopilot_that_does_not_follow_is_one_finding_with_its_reason(doctor, capsys, why, mend):
+    system = seen(said={"engaged_from_mavros: autopilot": 2, "ingress_navigator: engaged": 2})
+    for status, text in zip(system.said.values(), (why, "/engaged has fallen silent: taken to be out of control")):
+        status.message = text
+    system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
+    system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
+    report = findings.Report()
+    doctor.check_what_nodes_say(system, report)
+    assert report.say() == 1
+    said = capsys.readouterr().out
+    assert said.startswith(f"ERROR  engaged_from_mavros: autopilot: {why}\n       mend: {mend}"), said
+
+
 @pytest.mark.parametrize("parameters, alive, words", [
     (["/uav1/setpoint_guard"], ["window_detector"], "WARN   setpoint_guard is not running"),
     ([], ["window_detector"], "OK     setpoint_guard is not part of this launch (fly:=false)"),

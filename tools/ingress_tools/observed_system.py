@@ -11,7 +11,7 @@ from ingress_tools import live_system
 NODES = {"window_detector": "detector.yaml", "homography_pose": "pose.yaml", "ingress_navigator": "navigator.yaml",
          "setpoint_guard": "guard.yaml"}
 # From the camera to the autopilot: who comes later lives by what those before it publish.
-PIPELINE = "world", "window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"
+PIPELINE = "world", "window_detector", "homography_pose", "engaged_from_mavros", "ingress_navigator", "setpoint_guard"
 ARGUMENTS = {"sensor_msgs/Image": "image", "sensor_msgs/CompressedImage": "image_transport:=compressed image",
              "sensor_msgs/CameraInfo": "camera_info", "sensor_msgs/Imu": "imu", "nav_msgs/Odometry": "odom"}
 WANTED = "window_detector", "homography_pose"  # whatever is launched

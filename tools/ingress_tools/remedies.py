@@ -31,6 +31,10 @@ REMEDIES = (
                                               "died: scripts/run rosnode cleanup, and start it again"),
     ("(0 publishers)", "start what publishes it, or check the remapping: scripts/run rosnode info"),
     ("nobody subscribes to", "scripts/run rosnode info the one that should listen; check its remapping"),
+    ("in a failsafe", "read in the ground station what the autopilot says: battery, link, sensors"),
+    ("not connected, ", "mend fcu_url:= of MAVROS: it does not reach its autopilot"),
+    ("/state has fallen silent", "see what MAVROS says, and scripts/run rostopic hz its state"),
+    ("/state so far", f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE"),
     ("engaged", "arm, and switch to OFFBOARD or GUIDED: doc/autopilots.md"),
 )
 

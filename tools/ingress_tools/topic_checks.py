@@ -53,10 +53,10 @@ def check_mavros(system, report, topics):
     listed = ", ".join(topics)
     if missing == topics:
         report.error(f"MAVROS is not running: 0 publishers of {listed}",
-                     f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE", [*topics, engaged])
+                     f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE", [*topics, engaged, f"{namespace}/state"])
     else:
         report.error(f"MAVROS sends nothing on {listed}: has it an autopilot?",
-                     f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS", [*topics, engaged])
+                     f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS", [*topics, engaged, f"{namespace}/state"])
     return topics
 
 

@@ -40,7 +40,7 @@ class EngagedFreshness {
     if (!heard_) return {Health::kOk, "nothing on " + topic + ": taken to follow setpoints"};
     if (isSilent(now_sec)) return {Health::kError, topic + " has fallen silent: taken to be out of control"};
     return {Health::kOk,
-            engaged_ ? "follows setpoints" : "not armed, or not in a mode that follows setpoints"};
+            engaged_ ? "follows setpoints" : "not armed, not in a mode that follows setpoints, or in a failsafe"};
   }
 
  private:

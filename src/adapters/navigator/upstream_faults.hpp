@@ -12,8 +12,8 @@
 
 namespace window_ingress::adapters {
 
-/// What detector and pose node lack, heard on /diagnostics: the navigator does not see images itself, and is
-/// asked why it does not start.
+/// What detector, pose node and autopilot lack, heard on /diagnostics: the navigator does not see images
+/// itself, and is asked why it does not start.
 class UpstreamFaults {
  public:
   UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
@@ -45,7 +45,8 @@ class UpstreamFaults {
   static constexpr double kForgottenSec = 3.0;  // diagnostics come once a second
   static constexpr std::size_t kLongestText = 200;
   static constexpr const char* kInputs[] = {"window_detector: image", "window_detector: camera_info",
-                                            "homography_pose: imu"};
+                                            "homography_pose: imu",
+                                            "engaged_from_mavros: autopilot"};
 
   struct Fault {
     double heard_sec;  ///< on the steady clock

@@ -69,7 +69,7 @@ TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
   EXPECT_FALSE(reply.success);
   EXPECT_EQ(reply.message,
             "not started: no odometry; last image 9.00 s old; "
-            "the vehicle is not armed or not in a mode that follows setpoints");
+            "the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
   NavigatorInput blind = inputAt(kFar, now_);
   blind.image_stamp_sec.reset();
   EXPECT_EQ(navigator.start(blind, now_).message, "not started: no image searched so far");
