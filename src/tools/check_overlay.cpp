@@ -76,6 +76,8 @@ std::string given(std::string text) {
 // Something flies that is no simulation of ours.
 bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
 
+bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty(); }
+
 /// \return width over height of the opening in the reference image; 0: nobody says it
 double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
@@ -234,16 +236,13 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   if (!by_argument) tools::checkBothSides(overlay);
   if (asksForSizes(o))
     faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
-  const bool by_hand = o.launch_folder.empty() && o.fly.empty();
-  if (by_hand ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
+  if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
     tools::checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
   const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/", {"half_width_m"}) ||
                                                          tools::says(overlay, "vehicle/", {"half_height_m"}));
   if (o.fly == "true" || (o.fly.empty() && says_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
-  if (by_hand || (asksForSizes(o) && o.fly == "true"))
-    std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";
 }
 
 // What is wrong with the parameter file is said where it is loaded.
@@ -273,6 +272,8 @@ int check(const Options& o) {
   if (!o.scenario.empty()) faults.collect([&] { checkScenario(o); });
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.throwIfAny();
+  if (isByHand(o) || (asksForSizes(o) && o.fly == "true"))
+    std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";
   std::cout << file << "\n";
   return 0;
 }

@@ -97,6 +97,28 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
     assert said.startswith(words) and "arm, and switch" not in said
 
 
+@pytest.mark.parametrize("world_says, words", [("odometry", "ERROR  /odom: /drone advertises it and sends nothing"),
+                                               ("refused", "ERROR  homography_pose: odom: /odom (1 publisher) refused")])
+def test_a_world_without_the_odometry_that_it_draws_by_is_no_cause(doctor, capsys, world_says, words):
+    kinds = {"/camera/image_raw": RAW, "/odom": "nav_msgs/Odometry"}
+    is_refused = world_says == "refused"
+    system = seen(said={"homography_pose: odom": 2, "world: vehicle_odom": 2} if is_refused else {})
+    for status in system.said.values():
+        status.message = "/odom (1 publisher) refused, 9 so far: header.frame_id is 'odom', expected 'map'"
+    system.alive = {name: f"/{name}" for name in doctor.WANTED}
+    system.inputs = {"window_detector": {"/camera/image_raw": RAW}, "homography_pose": {"/odom": "nav_msgs/Odometry"}}
+    system.graph.publishers, system.graph.types = {"/camera/image_raw": ["/world"], "/odom": ["/drone"]}, kinds
+    system.samples = {topic: types.SimpleNamespace(times=[0.0] * (is_refused and topic == "/odom"), rate_hz=lambda: 50.0, age_s=lambda: 0.0)
+                      for topic in kinds}
+    report = findings.Report()
+    topic_checks.check_inputs(system, report)
+    if is_refused:
+        doctor.check_what_nodes_say(system, report)
+    assert report.say() == 1
+    said = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
+    assert said[0].startswith(words) and "       follows: /camera/image_raw: /world advertises it and sends nothing" in said, said
+
+
 @pytest.mark.parametrize("why, mend", [
     ("/mavros/state has fallen silent", "see what MAVROS says, "), ("/mavros/state so far", "start MAVROS "),
     ("the autopilot does not follow setpoints: not connected, armed, mode OFFBOARD", "mend fcu_url:="),

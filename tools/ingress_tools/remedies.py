@@ -20,6 +20,8 @@ REMEDIES = (
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
     ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
+    ("draws too slowly", "real_time_factor:=0.5 of sim.launch, or fewer or smaller images: camera: {rate_hz: 15, width_px: 320, height_px: 240} "
+                         "in the scenario"),
     ("the budget is", "let the camera send smaller images, or fewer a second; most goes into 'reference' where other rectangles "
                       "than the target are in view: doc/detection.md, 'What it costs'"),
     ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),

@@ -1,9 +1,19 @@
 """Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
-from ingress_tools.observed_system import ARGUMENTS
+from ingress_tools.observed_system import ARGUMENTS, PIPELINE
 from ingress_tools.remedies import AGAIN, another_topic, remedy
 
 SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
 DAY_S = 86400.0
+
+
+def is_of_world(system, topic):
+    return any(node.rsplit("/", 1)[-1] == "world" for node in system.graph.publishers.get(topic, []))
+
+
+def world_waits(system, report):
+    """Whether the simulated world lacks what it draws by: the odometry of a vehicle that others simulate."""
+    refuses = any(name.rsplit("/", 1)[-1].startswith("world: ") and status.level > 1 for name, status in system.said.items())
+    return refuses or any(finding.level == "ERROR" for finding in report.findings)
 
 
 def check_input(system, report, topic, kind, readers):
@@ -11,6 +21,8 @@ def check_input(system, report, topic, kind, readers):
     sample = system.samples[topic]
     type_ = system.graph.types.get(topic, kind)
     place = {"symptom": "/clock" in report.named}
+    if not sample.times and is_of_world(system, topic) and world_waits(system, report):
+        place = {"symptom": True, "stage": len(PIPELINE)}
     if not publishers:
         report.error(f"{topic}: 0 publishers, read by {readers}", another_topic(system, topic, kind), [topic], **place)
     elif type_ not in (kind, "*"):
@@ -67,7 +79,7 @@ def check_inputs(system, report):
             if topic in system.samples and kind in ARGUMENTS:
                 readers.setdefault((topic, kind), []).append(name)
     of_mavros = check_mavros(system, report, sorted(topic for topic, _ in readers))
-    for (topic, kind), names in sorted(readers.items()):
+    for (topic, kind), names in sorted(readers.items(), key=lambda reader: (is_of_world(system, reader[0][0]), reader)):
         if topic in of_mavros:
             continue
         optional = kind == "sensor_msgs/Imu" and names == ["window_detector"]
