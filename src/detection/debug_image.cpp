@@ -155,8 +155,9 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 }  // namespace
 
 cv::Mat drawReference(const ReferenceAppearance& reference) {
-  cv::Mat image = reference.image();
-  if (image.channels() == 1) cv::cvtColor(reference.image(), image, cv::COLOR_GRAY2BGR);
+  cv::Mat grey = reference.image(), image;  // tints look alike on every frame
+  if (grey.channels() == 3) cv::cvtColor(reference.image(), grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
   const cv::Mat inner = within(image.size(), opening);
   const cv::Mat near = within(image.size(), ringLine(opening, RingSamples::kFrameWidth));
