@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Plays a video file as the images of a camera, with the calibration of the camera that took it: of rehearse.launch.
 
-Begins when somebody listens, publishes each image with the present time at the rate of the file, and ends with it. Exit code:
-0 played, 2 video or calibration cannot be used.
+Begins ~wait seconds after somebody listens, publishes each image with the present time at the rate of the file, and ends with it,
+or with ~stay only when the launch does. Exit code: 0 played, 2 video or calibration cannot be used.
 """
 import os
 import sys
@@ -56,6 +56,7 @@ def play(video, info, frame):
     infos = rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=2)
     while images.get_num_connections() == 0:
         rospy.sleep(0.1)
+    rospy.sleep(rospy.get_param("~wait", 0.0))
     info.header.frame_id = frame
     rate = rospy.Rate(video.get(cv2.CAP_PROP_FPS) or USUAL_HZ)
     there, image = video.read()
@@ -65,7 +66,11 @@ def play(video, info, frame):
         images.publish(message_of(image, info.header))
         there, image = video.read()
         rate.sleep()
-    rospy.loginfo("the video is over, so the launch ends: what roslaunch writes in red is no error")
+    if rospy.get_param("~stay", False):
+        rospy.loginfo("the video is over; close rviz, or press Ctrl-C, to end the launch")
+        rospy.spin()
+    else:
+        rospy.loginfo("the video is over, so the launch ends: what roslaunch writes in red is no error")
 
 
 def main():

@@ -70,6 +70,12 @@ def test_a_mission_begins_by_what_the_video_shows_and_all_ends_with_it(folder):
     assert time.monotonic() - begin > 8.0
 
 
+def test_with_rviz_the_launch_stays_when_the_video_is_over(folder):
+    with pytest.raises(subprocess.TimeoutExpired) as stayed:
+        rehearse(folder, f"video:={folder}/hand.avi", f"calibration:=file://{folder}/camera.yaml", "stay:=true", seconds=35)
+    assert b"the video is over; close rviz" in stayed.value.output
+
+
 @pytest.mark.parametrize("video, calibration, words", [
     ("none.avi", "camera.yaml", "rehearse.launch: video:={}/none.avi: no such file"), ("text.avi", "camera.yaml", "{}/text.avi: cannot be read as a video"),
     ("hand.avi", "none.yaml", "calibration {}/none.yaml: no such file; calibrate the camera"), ("hand.avi", "list.yaml", "{}/list.yaml: not as a calibrator writes it"),
