@@ -61,8 +61,18 @@ Options checked(Options o) {
 
 void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::endl; }
 
+// That of MAVROS is `map`; whoever names another one means it.
+void takeOdomFrame(const rosbag::Bag& bag, adapters::ReplayParams& params) {
+  const std::string recorded = adapters::recordedOdomFrame(bag, params.topics.odom);
+  std::string& frame = params.vehicle.frames.odom;
+  if (params.said.count("vehicle/odom_frame") > 0 || recorded.empty() || recorded == frame) return;
+  say("odometry in the frame '" + recorded + "', as the bag has it");
+  frame = recorded;
+}
+
 adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReplayParams params{configuration::readOverlay(o.params), adapters::chooseTopics(bag, o.topics)};
+  takeOdomFrame(bag, params);
   adapters::ReferenceParams reference = o.reference;
   tools::takeReference(o.params, params.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) {

@@ -1,6 +1,6 @@
 """Writes a bag as a camera on a standing vehicle records it: usage write_camera_bag.py FILE.bag [WORD...]
 
-raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
+raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
 window_pose and setpoints of the flight, which nobody should take for new ones).
 """
 import pathlib
@@ -42,7 +42,7 @@ def messages(stamp, pixels, words, image):
     if "no_info" not in words:
         yield image.rsplit("/", 1)[0] + "/camera_info", support.camera_info(stamp)
     if "no_odom" not in words:
-        yield "/odom", support.odometry(stamp)
+        yield "/odom", support.changed(support.odometry, header__frame_id="map" if "map" in words else "odom")(stamp)
     yield "/imu", support.imu(stamp)
     if "outputs" in words:
         yield from recorded_outputs(stamp)

@@ -40,6 +40,15 @@ def test_an_earlier_replay_is_replaced_only_when_asked(tmp_path):
     assert (tmp_path / "frames.csv").read_bytes() == before
 
 
+def test_the_frame_of_the_odometry_is_that_of_the_bag_unless_another_is_named(tmp_path):
+    bag, params = bag_of(tmp_path, "seconds=1", "map"), tmp_path / "params.yaml"
+    done = replay(bag, tmp_path, *SIZE)
+    assert "odometry in the frame 'map', as the bag has it" in done.stderr and "refused" not in done.stderr
+    assert any(row["filtered_tx"] for row in rows_of(tmp_path / "frames.csv"))
+    params.write_text("vehicle: {odom_frame: odom}\n")
+    assert "header.frame_id is 'map', expected 'odom'" in replay(bag, tmp_path, *SIZE, "--params", params).stderr
+
+
 class Page(html.parser.HTMLParser):
     """References, open tags and text of a page."""
 

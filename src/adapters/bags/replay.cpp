@@ -226,6 +226,12 @@ std::optional<detection::ReferenceAppearance> recordedReference(const rosbag::Ba
   return std::nullopt;
 }
 
+std::string recordedOdomFrame(const rosbag::Bag& bag, const std::string& topic) {
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic)))
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) return odometry->header.frame_id;
+  return "";
+}
+
 ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
                      const std::function<void(const ReplayedFrame&)>& each,
                      const std::function<void(const std::string&)>& jumped) {

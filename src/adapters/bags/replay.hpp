@@ -57,6 +57,9 @@ struct ReplaySummary {
 std::optional<detection::ReferenceAppearance> recordedReference(const rosbag::Bag& bag,
                                                                 const ReplayParams& params);
 
+/// frame_id of the bag's odometry; empty without any.
+std::string recordedOdomFrame(const rosbag::Bag& bag, const std::string& topic);
+
 /// A stamp more than `kJumpSec` before the newest one is a jump back in time: everything starts anew, as it
 /// does in the nodes when a bag is looped. \param each called for each image in the order of the bag \param
 /// jumped called at each jump, with what to say about it \throws InputError if the bag is damaged half way
