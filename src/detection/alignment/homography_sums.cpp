@@ -48,6 +48,26 @@ std::optional<Eigen::Matrix3d> homographyOf(const Vector8f& p) {
   return change;
 }
 
+// The sums are in registers meanwhile.
+void DerivativeSum::add(const float* monomials, const float* slopes_a, const float* slopes_b, int count) {
+  Eigen::Array<float, 8, 1> sum_a = a, sum_b = b;
+  for (int i = 0; i < count; ++i, monomials += 16) {
+    const Eigen::Map<const Eigen::Array<float, 8, 1>> m(monomials);
+    sum_a += slopes_a[i] * m, sum_b += slopes_b[i] * m;
+  }
+  a = sum_a, b = sum_b;
+}
+
+void NormalSum::add(const float* monomials, const float* slopes_aa, const float* slopes_ab,
+                    const float* slopes_bb, int count) {
+  Monomials sum_aa = aa, sum_ab = ab, sum_bb = bb;
+  for (int i = 0; i < count; ++i, monomials += 16) {
+    const Eigen::Map<const Monomials> m(monomials);
+    sum_aa += slopes_aa[i] * m, sum_ab += slopes_ab[i] * m, sum_bb += slopes_bb[i] * m;
+  }
+  aa = sum_aa, ab = sum_ab, bb = sum_bb;
+}
+
 Vector8f DerivativeSum::vector() const {
   constexpr Term one{0, 0, 1.0F};
   Vector8f v;

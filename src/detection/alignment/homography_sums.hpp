@@ -19,10 +19,8 @@ using Matrix8f = Eigen::Matrix<float, 8, 8>;
 struct DerivativeSum {
   Eigen::Array<float, 8, 1> a = Eigen::Array<float, 8, 1>::Zero(), b = Eigen::Array<float, 8, 1>::Zero();
 
-  void add(const float* monomials, float slope_a, float slope_b) {
-    const Eigen::Map<const Eigen::Array<float, 8, 1>> m(monomials);
-    a += slope_a * m, b += slope_b * m;
-  }
+  /// \param monomials 16 a point \param count of points
+  void add(const float* monomials, const float* slopes_a, const float* slopes_b, int count);
   Vector8f vector() const;
 };
 
@@ -33,10 +31,8 @@ std::optional<Eigen::Matrix3d> homographyOf(const Vector8f& p);
 struct NormalSum {
   Monomials aa = Monomials::Zero(), ab = Monomials::Zero(), bb = Monomials::Zero();
 
-  void add(const float* monomials, float slope_aa, float slope_ab, float slope_bb) {
-    const Eigen::Map<const Monomials> m(monomials);
-    aa += slope_aa * m, ab += slope_ab * m, bb += slope_bb * m;
-  }
+  void add(const float* monomials, const float* slopes_aa, const float* slopes_ab, const float* slopes_bb,
+           int count);
   Matrix8f matrix() const;
 };
 

@@ -73,38 +73,47 @@ RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   return match;
 }
 
+// Of `count` samples, at most kMost. Channel by channel, without a branch: so they are worked off by fours.
+RingAlignment::SlopeProducts RingAlignment::products(const RingSegment& segment, int begin, int count) const {
+  const RingLevel& ring = view_.ring();
+  const float outlier = robustFactor(spread_), gain = segment.gain, *weights = view_.weights() + begin;
+  SlopeProducts p;
+  for (int c = 0; c < kRingChannels; ++c) {
+    const auto at = static_cast<std::size_t>(c * ring.size() + begin);
+    const float *values = ring.values.data() + at, *residuals = residuals_.data() + at;
+    const float *slopes_x = ring.slopes_x.data() + at, *slopes_y = ring.slopes_y.data() + at;
+    const float mean = segment.ring_mean[c];
+    for (int k = 0; k < count; ++k) {
+      const float x = values[k] - mean, r = residuals[k];
+      const float weight = weights[k] / (1.0F + outlier * r * r);
+      const float a = gain * slopes_x[k], b = gain * slopes_y[k], wa = weight * a, wb = weight * b;
+      p.aa[k] += wa * a, p.ab[k] += wa * b, p.bb[k] += wb * b;
+      p.ar[k] += wa * r, p.br[k] += wb * r, p.ax[k] += wa * x, p.bx[k] += wb * x;
+      p.a[c][k] = wa, p.b[c][k] = wb;
+    }
+  }
+  return p;
+}
+
 // Residuals with the segments' gains and offsets taken off, and the normal equations with both left free.
 void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right,
                                Matrix8f& explained) {
-  const RingLevel& ring = view_.ring();
   DerivativeSum of_ring;  // derivatives times the ring's values
   std::array<DerivativeSum, kRingChannels> of_one;
-  const float outlier = robustFactor(spread_);
-  const std::size_t count = ring.x.size();
-  for (int i = segment.begin; i < segment.end; ++i) {
-    if (view_.weight(i) == 0.0F) continue;
-    const float* monomials = ring.monomials.data() + static_cast<std::size_t>(16) * i;
-    float aa = 0.0F, ab = 0.0F, bb = 0.0F, ar = 0.0F, br = 0.0F, ax = 0.0F, bx = 0.0F;
-    std::size_t at = i;
-    for (int c = 0; c < kRingChannels; ++c, at += count) {
-      const RingMoments& m = segment.moments[c];
-      const float x = ring.values[at] - m.meanX(), r = view_.value(at) - m.meanY() - segment.gain * x;
-      residuals_[at] = r;
-      const float weight = view_.weight(i) / (1.0F + outlier * r * r);
-      const float a = segment.gain * ring.slopes_x[at], b = segment.gain * ring.slopes_y[at];
-      const float wa = weight * a, wb = weight * b;
-      aa += wa * a, ab += wa * b, bb += wb * b, ar += wa * r, br += wb * r, ax += wa * x, bx += wb * x;
-      of_one[c].add(monomials, wa, wb);
-    }
-    normal.add(monomials, aa, ab, bb);
-    right.add(monomials, ar, br);
-    of_ring.add(monomials, ax, bx);
+  view_.leaveOver(segment, residuals_);
+  for (int begin = segment.begin; begin < segment.end; begin += SlopeProducts::kMost) {
+    const int count = std::min(SlopeProducts::kMost, segment.end - begin);
+    const SlopeProducts p = products(segment, begin, count);
+    const float* monomials = view_.ring().monomials.data() + static_cast<std::size_t>(16) * begin;
+    normal.add(monomials, p.aa.data(), p.ab.data(), p.bb.data(), count);
+    right.add(monomials, p.ar.data(), p.br.data(), count);
+    of_ring.add(monomials, p.ax.data(), p.bx.data(), count);
+    for (int c = 0; c < kRingChannels; ++c) of_one[c].add(monomials, p.a[c].data(), p.b[c].data(), count);
   }
   const auto take = [&explained](const Vector8f& v, float by) {
     explained.noalias() += v * (v.transpose() / by);
   };
-  for (int c = 0; c < kRingChannels; ++c)
-    if (segment.moments[c].n > 0.0F) take(of_one[c].vector(), segment.moments[c].n);
+  for (const DerivativeSum& of_channel : of_one) take(of_channel.vector(), segment.seen);
   take(of_ring.vector(), segment.xx);
 }
 

@@ -56,6 +56,15 @@ class RingAlignment {
   std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& quad, int side) const;
 
  private:
+  /// Weighted products of the slopes (a, b) of some samples, their residuals r and the ring's values x: of
+  /// all channels, and the slopes of each.
+  struct SlopeProducts {
+    static constexpr int kMost = 32;
+    using Each = std::array<float, kMost>;
+    Each aa{}, ab{}, bb{}, ar{}, br{}, ax{}, bx{};
+    std::array<Each, kRingChannels> a, b;
+  };
+  SlopeProducts products(const RingSegment& segment, int begin, int count) const;
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
   int sideOf(int segment) const { return 4 * segment / view_.ring().segmentCount(); }
   double beyondChance(double correlation) const;

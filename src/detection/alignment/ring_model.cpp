@@ -74,7 +74,7 @@ class RingReader {
     for (int c = 0; c < kRingChannels; ++c)
       value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + kRingChannels]) +
                        v * ((1.0F - u) * bottom[c] + u * bottom[c + kRingChannels]));
-    model_.weighColour(value[0], value[1], value[2]);
+    model_.weighColour(&value[0], &value[1], &value[2], 1);
     return true;
   }
 

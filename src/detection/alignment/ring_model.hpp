@@ -80,10 +80,15 @@ class RingModel {
   void setFramed(bool framed) { framed_ = framed; }
   bool framed() const { return framed_; }
 
-  /// Gives the differences of three logarithms their weight.
-  void weighColour(float& blue, float& green, float& red) const {
-    const float brightness = (blue + green + red) / 3.0F;
-    for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
+  /// Gives the differences of three logarithms their weight, for `count` points.
+  void weighColour(float* blue, float* green, float* red, std::size_t count) const {
+    const float weight = colour_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float brightness = (blue[i] + green[i] + red[i]) / 3.0F;
+      blue[i] = brightness + weight * (blue[i] - brightness);
+      green[i] = brightness + weight * (green[i] - brightness);
+      red[i] = brightness + weight * (red[i] - brightness);
+    }
   }
 
   /// The level nearest to this resolution, coarse to fine by steps of the square root of two.

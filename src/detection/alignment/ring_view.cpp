@@ -1,9 +1,10 @@
 #include "detection/alignment/ring_view.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "detection/quads.hpp"
-#include "window_ingress/geometry/median.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -19,14 +20,74 @@ constexpr float kUsualWeight =
 constexpr double kMaxCovered = 1.0 / 3.0;            ///< of the ring
 constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
 
-// Of the samples that are seen.
-RingMoments momentsOf(const float* ring, const float* image, const float* weights, int begin, int end) {
+using Ints = std::int32_t __attribute__((vector_size(16)));
+
+// The colours at their places in four bytes: green and red so much too large, which a float bears exactly.
+Channels unscaled(std::uint32_t bytes) {
+  const auto all = static_cast<std::int32_t>(bytes);
+  return __builtin_convertvector(Ints{all, all, all, all} & Ints{0xff, 0xff00, 0xff0000, 0}, Channels);
+}
+
+// Between two pixels side by side. Nothing beyond their six bytes is read.
+Channels unscaledBetween(const uchar* left, float u) {
+  std::uint32_t first = 0, last = 0;
+  std::memcpy(&first, left, 4), std::memcpy(&last, left + 2, 4);
+  const Channels colour = unscaled(first);
+  return colour + u * (unscaled(last >> 8) - colour);
+}
+
+// Between four pixels.
+Channels colourAt(const cv::Mat& image, float x, float y) {
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+  const uchar* pixel = image.data + row * image.step[0] + column * kRingChannels;
+  const Channels upper = unscaledBetween(pixel, u), lower = unscaledBetween(pixel + image.step[0], u);
+  return (upper + v * (lower - upper)) * Channels{1.0F, 1.0F / 256.0F, 1.0F / 65536.0F, 0.0F};
+}
+
+Channels logsOf(Channels colour) {
+  const auto whole = __builtin_convertvector(colour, Ints);
+  const auto log = [&whole](int c, int more) { return kLogsOfColours[whole[c] + more]; };
+  const Channels low{log(0, 0), log(1, 0), log(2, 0), 0.0F}, high{log(0, 1), log(1, 1), log(2, 1), 0.0F};
+  return low + (colour - __builtin_convertvector(whole, Channels)) * (high - low);
+}
+
+// Weighted moments of ring (x) and image (y) over one segment.
+struct RingMoments {
+  float n = 0.0F;
+  Channels x{}, y{}, xx{}, yy{}, xy{};
+};
+
+// \param ring, image channel by channel, `count` samples each
+RingMoments momentsOf(const float* ring, const float* image, const float* weights, int count, int begin,
+                      int end) {
+  const auto at = [count](const float* of, int i) {
+    return Channels{of[i], of[count + i], of[2 * count + i], 0.0F};
+  };
   RingMoments m;
   for (int i = begin; i < end; ++i) {
-    const float w = weights[i], x = w * ring[i], y = w * image[i];
-    m.n += w, m.x += x, m.y += y, m.xx += x * ring[i], m.yy += y * image[i], m.xy += x * image[i];
+    const Channels x = at(ring, i), y = at(image, i), wx = weights[i] * x, wy = weights[i] * y;
+    m.n += weights[i], m.x += wx, m.y += wy, m.xx += wx * x, m.yy += wy * y, m.xy += wx * y;
   }
   return m;
+}
+
+// The middle value, as geometry::median, of numbers that are not negative. Faster: only those that begin as
+// it does are ordered, and left.
+float middleOf(std::vector<float>& values) {
+  const auto begins = [](float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    return bits >> 20;  // sign, exponent, three bits more
+  };
+  std::array<std::size_t, 2048> counts{};
+  for (const float value : values) ++counts[begins(value)];
+  std::size_t left = values.size() / 2, middle = 0;
+  for (; counts[middle] <= left; ++middle) left -= counts[middle];
+  const auto is_other = [&](float value) { return begins(value) != middle; };
+  values.erase(std::remove_if(values.begin(), values.end(), is_other), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(left), values.end());
+  return values[left];
 }
 
 }  // namespace
@@ -89,30 +150,21 @@ void RingView::place(const Matrix3d& map, int level) {
 
 int RingView::readPixels(const cv::Mat& image, bool keeps_weights) {
   const auto count = at_x_.size();
-  const auto row_step = image.step[0];
   const auto right = static_cast<float>(image.cols - 1), bottom = static_cast<float>(image.rows - 1);
+  float *blue = values_.data(), *green = blue + count, *red = green + count;
   int seen = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float x = at_x_[i], y = at_y_[i];
-    const bool inside = x >= 0.0F && y >= 0.0F && x < right && y < bottom;
-    weights_[i] = !inside ? 0.0F : keeps_weights && weights_[i] > 0.0F ? weights_[i] : 1.0F;
-    seen += inside;
-    if (!inside) {
-      for (int c = 0; c < kRingChannels; ++c) values_[c * count + i] = 0.0F;
+    if (!(x >= 0.0F && y >= 0.0F && x < right && y < bottom)) {
+      blue[i] = green[i] = red[i] = weights_[i] = 0.0F;
       continue;
     }
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-    const uchar *top = image.data + row * row_step + column * kRingChannels, *below = top + row_step;
-    for (int c = 0; c < kRingChannels; ++c) {
-      const float upper =
-          static_cast<float>(top[c]) + u * static_cast<float>(top[c + kRingChannels] - top[c]);
-      const float lower =
-          static_cast<float>(below[c]) + u * static_cast<float>(below[c + kRingChannels] - below[c]);
-      values_[c * count + i] = logOf(upper + v * (lower - upper));
-    }
-    model_->weighColour(values_[i], values_[count + i], values_[2 * count + i]);
+    ++seen;
+    if (!(keeps_weights && weights_[i] > 0.0F)) weights_[i] = 1.0F;
+    const Channels logs = logsOf(colourAt(image, x, y));
+    blue[i] = logs[0], green[i] = logs[1], red[i] = logs[2];
   }
+  model_->weighColour(blue, green, red, count);
   return seen;
 }
 
@@ -135,24 +187,25 @@ double RingView::look(const Quadrilateral& quad, double side_px) {
 
 float RingView::meanLog() const {
   float sum = 0.0F, seen = 0.0F;
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const float weight = weights_[i % weights_.size()];
-    sum += weight * values_[i], seen += weight;
-  }
+  for (auto of_channel = values_.begin(); of_channel != values_.end();)
+    for (const float weight : weights_) sum += weight * *of_channel++, seen += weight;
   return seen > 0.0F ? sum / seen : 0.0F;
 }
 
 RingSegment RingView::segment(int s) const {
   RingSegment segment;
   segment.begin = ring_->segments[s], segment.end = ring_->segments[s + 1];
+  const RingMoments m = momentsOf(ring_->values.data(), values_.data(), weights_.data(), ring_->size(),
+                                  segment.begin, segment.end);
+  if (!(m.n > 0.0F)) return segment;
+  segment.seen = m.n, segment.ring_mean = m.x / m.n, segment.mean = m.y / m.n;
+  const Channels squares_x = m.xx - m.x * segment.ring_mean, squares_y = m.yy - m.y * segment.mean,
+                 products = m.xy - m.x * segment.mean;
   float yy = 0.0F, xy = 0.0F, samples = 0.0F;
   for (int c = 0; c < kRingChannels; ++c) {
-    const std::size_t at = static_cast<std::size_t>(c) * ring_->size();
-    const RingMoments m = segment.moments[c] = momentsOf(ring_->values.data() + at, values_.data() + at,
-                                                         weights_.data(), segment.begin, segment.end);
-    segment.xx += m.varX(), yy += m.varY(), xy += m.cov(), samples += m.n;
+    segment.xx += std::max(0.0F, squares_x[c]), yy += std::max(0.0F, squares_y[c]);
+    xy += products[c], samples += m.n;
   }
-  if (!(samples > 0.0F)) return segment;
   segment.noise = kNoise * kNoise * samples;
   segment.weight = samples * std::log1p(0.5F * (segment.xx + yy) / segment.noise);
   segment.xx += segment.noise;
@@ -172,31 +225,38 @@ void RingView::coverOutliers(int passes) {
 
 // A step of iteratively reweighted least squares: gains and offsets of the segments follow from the weights.
 void RingView::weighByResiduals() {
-  const std::size_t count = ring_->x.size();
-  residuals_.assign(count * kRingChannels, 0.0F);
-  for (int s = 0; s < ring_->segmentCount(); ++s) {
-    const RingSegment fitted = segment(s);
-    for (int c = 0; c < kRingChannels; ++c) {
-      const RingMoments& m = fitted.moments[c];
-      for (std::size_t i = fitted.begin, at = c * count + i; static_cast<int>(i) < fitted.end; ++i, ++at)
-        residuals_[at] = values_[at] - m.meanY() - fitted.gain * (ring_->values[at] - m.meanX());
-    }
-  }
+  const std::size_t count = weights_.size();
+  residuals_.resize(kRingChannels * count);
+  for (int s = 0; s < ring_->segmentCount(); ++s) leaveOver(segment(s), residuals_);
   const float outlier = robustFactor(spreadOf(residuals_, kNoise));
+  const float *blue = residuals_.data(), *green = blue + count, *red = green + count;
   for (std::size_t i = 0; i < count; ++i) {
-    if (weights_[i] == 0.0F) continue;
-    float squares = 0.0F;
-    for (int c = 0; c < kRingChannels; ++c) squares += residuals_[c * count + i] * residuals_[c * count + i];
-    weights_[i] = 1.0F / (1.0F + outlier * squares);
+    const float squares = blue[i] * blue[i] + green[i] * green[i] + red[i] * red[i];
+    weights_[i] = static_cast<float>(weights_[i] > 0.0F) / (1.0F + outlier * squares);
+  }
+}
+
+void RingView::leaveOver(const RingSegment& segment, std::vector<float>& residuals) const {
+  for (int c = 0; c < kRingChannels; ++c) {
+    const float gain = segment.gain, ring_mean = segment.ring_mean[c], mean = segment.mean[c];
+    const std::size_t at = c * weights_.size() + segment.begin;
+    const float *ring = ring_->values.data() + at, *values = values_.data() + at;
+    float* left = residuals.data() + at;
+    for (int i = 0; i < segment.end - segment.begin; ++i)
+      left[i] = values[i] - mean - gain * (ring[i] - ring_mean);
   }
 }
 
 float RingView::spreadOf(const std::vector<float>& residuals, float before) {
-  scratch_.clear();
-  for (std::size_t i = 0; i < residuals.size(); i += 3)
-    if (weights_[i % weights_.size()] > 0.0F) scratch_.push_back(std::abs(residuals[i]));
+  scratch_.resize(weights_.size() + 1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0, sample = 0; i < residuals.size(); i += 3, sample += 3) {
+    if (sample >= weights_.size()) sample -= weights_.size();
+    scratch_[kept] = std::abs(residuals[i]), kept += weights_[sample] > 0.0F;
+  }
+  scratch_.resize(kept);
   if (scratch_.empty()) return before;
-  return std::max(kNoise, 1.48F * geometry::median(scratch_));
+  return std::max(kNoise, 1.48F * middleOf(scratch_));
 }
 
 }  // namespace window_ingress::detection

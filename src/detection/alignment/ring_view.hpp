@@ -12,21 +12,14 @@
 
 namespace window_ingress::detection {
 
-/// Weighted moments of ring (x) and image (y) over one segment and one channel.
-struct RingMoments {
-  float n = 0.0F, x = 0.0F, y = 0.0F, xx = 0.0F, yy = 0.0F, xy = 0.0F;
-
-  float meanX() const { return n > 0.0F ? x / n : 0.0F; }
-  float meanY() const { return n > 0.0F ? y / n : 0.0F; }
-  float varX() const { return std::max(0.0F, xx - x * meanX()); }
-  float varY() const { return std::max(0.0F, yy - y * meanY()); }
-  float cov() const { return xy - x * meanY(); }
-};
+/// A number of each channel, blue, green and red, worked out at once; the fourth is not used.
+using Channels = float __attribute__((vector_size(16)));
 
 /// What the image shows of a stretch of the ring in which the light is even.
 struct RingSegment {
   int begin = 0, end = 0;
-  std::array<RingMoments, kRingChannels> moments;
+  float seen = 0.0F;             ///< sum of the samples' weights
+  Channels ring_mean{}, mean{};  ///< of the ring's values and of the image's
   float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times its samples, noise added; of all channels
   float noise = 0.0F;            ///< part of `xx`
   double alike = 0.0;            ///< correlation times `weight`
@@ -81,12 +74,12 @@ class RingView {
 
   const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
-  float value(std::size_t at) const { return values_[at]; }  ///< as those of the ring
 
   float meanLog() const;  ///< of the colours that are seen
 
   /// How much a sample counts; 0 where it lies beside the image.
   float weight(std::size_t i) const { return weights_[i]; }
+  const float* weights() const { return weights_.data(); }
 
   /// Samples that differ from the reference far more than most count less from now on: where most of the ring
   /// fits well, what does not is something before it; where nothing fits, all counts.
@@ -94,6 +87,10 @@ class RingView {
 
   /// What one segment shows of the reference, channel by channel and in all.
   RingSegment segment(int s) const;
+
+  /// What is left over of its samples when gain and offsets are taken off. \param residuals as the values of
+  /// the ring
+  void leaveOver(const RingSegment& segment, std::vector<float>& residuals) const;
 
   /// Standard deviation of what is left over, from its median; `before` where nothing is seen.
   /// \param residuals as the values of the ring
