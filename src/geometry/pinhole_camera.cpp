@@ -140,6 +140,22 @@ Eigen::Vector2d PinholeCamera::distort(const Eigen::Vector2d& ideal_px) const {
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
+Eigen::Matrix2d PinholeCamera::distortionSlope(const Eigen::Vector2d& ideal_px) const {
+  if (!hasDistortion()) return Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d slope;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d h = 0.5 * Eigen::Vector2d::Unit(axis);
+    slope.col(axis) = distort(ideal_px + h) - distort(ideal_px - h);
+  }
+  return slope;
+}
+
+double PinholeCamera::pixelAcross(const Eigen::Vector2d& ideal_px, const Eigen::Vector2d& along) const {
+  if (!hasDistortion()) return 1.0;
+  const Eigen::Matrix2d slope = distortionSlope(ideal_px);
+  return (slope * along).norm() / (along.norm() * std::abs(slope.determinant()));
+}
+
 Eigen::Vector2d PinholeCamera::undistort(const Eigen::Vector2d& distorted_px) const {
   if (!hasDistortion()) return distorted_px;
   const Eigen::Vector2d seen((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);

@@ -10,8 +10,8 @@
 
 namespace window_ingress::detection {
 
-/// How well the place of one side is known: standard deviations across it, at its middle, and of its
-/// direction. Zero: not at all.
+/// How well the place of one side is known in the undistorted image: standard deviations across it, at its
+/// middle, and of its direction. Zero: not at all.
 struct SideSigma {
   double px = 0.0, rad = 0.0;
 

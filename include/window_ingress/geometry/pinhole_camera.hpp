@@ -43,6 +43,14 @@ struct PinholeCamera {
   /// Distorted pixel of an ideal (undistorted) pixel of the same K.
   Eigen::Vector2d distort(const Eigen::Vector2d& ideal_px) const;
 
+  /// Derivative of `distort` at an ideal pixel.
+  Eigen::Matrix2d distortionSlope(const Eigen::Vector2d& ideal_px) const;
+
+  /// How many ideal pixels one pixel of the image is wide, across a straight line of the ideal image that
+  /// runs through a point in a direction (of any length): 1 without distortion, 4 at 60 degrees off a
+  /// fisheye's axis where the line runs about it.
+  double pixelAcross(const Eigen::Vector2d& ideal_px, const Eigen::Vector2d& along) const;
+
   /// Ideal pixel of a distorted one, by Newton iterations; to 1e-6 px within the image of any sane lens. A
   /// fisheye's directions further than 1.5 rad off the axis have none: they get that of 1.5 rad.
   Eigen::Vector2d undistort(const Eigen::Vector2d& distorted_px) const;

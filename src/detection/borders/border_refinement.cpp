@@ -43,11 +43,11 @@ namespace {
 class Side {
  public:
   Side(BorderRefinement::Workspace& memory, const SubpixelBorderLimits& limits, const BorderStart& start,
-       int side)
+       int side, double pixel)
       : memory_(memory),
         limits_(limits),
         start_(start),
-        known_(start.known[side]),
+        known_{start.known[side].px / pixel, start.known[side].rad / pixel},
         is_hidden_(start.hidden == side) {}
 
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
@@ -162,7 +162,7 @@ class Side {
   BorderRefinement::Workspace& memory_;
   const SubpixelBorderLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
-  const SideSigma known_;
+  const SideSigma known_;  // as profiles count
   const bool is_hidden_;
   int count_ = 0;
   FittedBorder border_;
@@ -228,7 +228,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     const Vector2d a = lens ? lens->undistort(from) : from, b = lens ? lens->undistort(to) : to;
     good = (b - a).norm() > kShortestPx;
     if (!good) break;
-    Side side(*memory_, limits, start, i);
+    Side side(*memory_, limits, start, i, pixelAcross(lens, a, b));
     good = side.run(image, lens, a, b) || start.known[i].known();
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
     worst = std::min(worst, side.inliers());

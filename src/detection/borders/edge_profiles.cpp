@@ -78,7 +78,7 @@ template <int kChannels, bool kRough>
 void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
   const ProfileReader<kChannels, kRough> read(image, width());
   for (int i = 0; i < count_; ++i) {
-    const Path path(point(position_[i], 0.0), normal_, reach_, lens);
+    const Path path(point(position_[i], 0.0), pixel_ * normal_, reach_, lens);
     inside_[i] = isInside(image, path.at, kMarginPx);
     if (!inside_[i]) continue;
     ++inside_count_;
@@ -91,10 +91,16 @@ void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* len
   }
 }
 
+double pixelAcross(const geometry::PinholeCamera* lens, const Vector2d& from, const Vector2d& to) {
+  const double pixel = lens ? lens->pixelAcross(0.5 * (from + to), to - from) : 1.0;
+  return std::isfinite(pixel) ? pixel : 1.0;
+}
+
 void EdgeProfiles::sample(const cv::Mat& image, const geometry::PinholeCamera* lens,
                           const ProfileGrid& grid) {
   const Vector2d span = grid.to - grid.from;
   length_ = span.norm();
+  pixel_ = pixelAcross(lens, grid.from, grid.to);
   middle_ = 0.5 * (grid.from + grid.to);
   normal_ = length_ > 0.0 ? Vector2d(span.y(), -span.x()) / length_ : Vector2d(Vector2d::UnitX());
   channels_ = image.channels();

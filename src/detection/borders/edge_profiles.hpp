@@ -14,11 +14,20 @@ struct ProfileGrid {
   Eigen::Vector2d from, to;  ///< ends of the stretch [px]
   int count = 80;            ///< profiles, evenly spaced
   double skip = 0.06;        ///< left out at both ends, in lengths of the stretch
-  int reach_px = 6;          ///< samples on either side, one pixel apart
+  int reach_px = 6;          ///< samples on either side, a pixel of the image apart
   bool rough = false;        ///< the nearest pixel instead of interpolation
 };
 
+/// Width of a pixel of the image in the undistorted one, across a stretch at its middle: 1 without a lens.
+double pixelAcross(const geometry::PinholeCamera* lens, const Eigen::Vector2d& from,
+                   const Eigen::Vector2d& to);
+
 /// Colours across a line: narrow profiles, sampled once and then read from many times. Keeps its memory.
+///
+/// Positions along the line are pixels of the undistorted image, in which it is straight. Offsets across it
+/// are pixels of the image as it came, `pixel()` undistorted ones each: off a fisheye's axis the undistorted
+/// image is stretched, its blur and its noise with it, and what holds of edges in an image holds in those of
+/// it alone.
 ///
 /// Offsets count along the normal, which points to the left of from -> to on the screen: outwards for the
 /// sides of a quadrilateral in canonical order.
@@ -33,6 +42,7 @@ class EdgeProfiles {
   int reach() const { return reach_; }
   int width() const { return 2 * reach_ + 1; }
   int channels() const { return channels_; }
+  double pixel() const { return pixel_; }                    ///< of an offset, in undistorted pixels
   double length() const { return length_; }                  ///< of the stretch [px]
   const Eigen::Vector2d& middle() const { return middle_; }  ///< of the stretch
   const Eigen::Vector2d& normal() const { return normal_; }
@@ -48,7 +58,7 @@ class EdgeProfiles {
   }
   /// The point of the undistorted image at a position along and an offset across.
   Eigen::Vector2d point(double position, double offset) const {
-    return middle_ + position * along() + offset * normal_;
+    return middle_ + position * along() + offset * pixel_ * normal_;
   }
 
   /// Mean of the profiles first <= i < last that lie in the image, channel by channel, `width()` each.
@@ -63,7 +73,7 @@ class EdgeProfiles {
   void fill(const cv::Mat& image, const geometry::PinholeCamera* lens);
 
   int count_ = 0, reach_ = 0, channels_ = 1, inside_count_ = 0;
-  double length_ = 0.0;
+  double length_ = 0.0, pixel_ = 1.0;
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), normal_ = Eigen::Vector2d::UnitX();
   std::vector<float> values_;
   std::vector<double> position_;

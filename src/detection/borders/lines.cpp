@@ -16,16 +16,6 @@ double varianceAt(const Line& line, const Vector2d& point) {
   return line.sigma_px * line.sigma_px + lever * lever;
 }
 
-// Derivative of the pixel as it came by the undistorted one.
-Matrix2d slopeOf(const geometry::PinholeCamera& lens, const Vector2d& ideal) {
-  Matrix2d slope;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Vector2d h = 0.5 * Vector2d::Unit(axis);
-    slope.col(axis) = lens.distort(ideal + h) - lens.distort(ideal - h);
-  }
-  return slope;
-}
-
 }  // namespace
 
 std::optional<LineCorner> meet(const Line& a, const Line& b) {
@@ -43,7 +33,7 @@ std::optional<LineCorner> meet(const Line& a, const Line& b) {
 
 LineCorner throughLens(const LineCorner& ideal, const geometry::PinholeCamera* lens) {
   if (!lens) return ideal;
-  const Matrix2d slope = slopeOf(*lens, ideal.point);
+  const Matrix2d slope = lens->distortionSlope(ideal.point);
   return {lens->distort(ideal.point), slope * ideal.covariance * slope.transpose()};
 }
 
@@ -51,7 +41,7 @@ Edge edgeThroughLens(const Line& line, const Vector2d& a, const Vector2d& b,
                      const geometry::PinholeCamera* lens) {
   Edge edge{true, line.sigma_px, line.sigma_rad, a, b};
   if (!lens) return edge;
-  edge.sigma_px *= (slopeOf(*lens, line.point) * line.normal).norm();
+  edge.sigma_px /= lens->pixelAcross(line.point, b - a);
   edge.a = lens->distort(a);
   edge.b = lens->distort(b);
   return edge;

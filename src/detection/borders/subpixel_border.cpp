@@ -31,9 +31,9 @@ double peak(double left, double middle, double right) {
 Line FittedBorder::inImage(const EdgeProfiles& profiles) const {
   Line border;
   border.point = profiles.point(middle(), line.at(middle()));
-  border.normal = (profiles.normal() - line.slope * profiles.along()).normalized();
-  border.sigma_px = sigma_px;
-  border.sigma_rad = sigma_rad;
+  border.normal = (profiles.normal() - profiles.pixel() * line.slope * profiles.along()).normalized();
+  border.sigma_px = profiles.pixel() * sigma_px;
+  border.sigma_rad = profiles.pixel() * sigma_rad;
   return border;
 }
 

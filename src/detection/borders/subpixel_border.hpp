@@ -11,7 +11,8 @@
 
 namespace window_ingress::detection {
 
-/// A border within the profiles taken across its start: offset and slope against the grid's middle line.
+/// A border within the profiles taken across its start: offset and slope against the grid's middle line, in
+/// the pixels that these count across.
 struct FittedBorder {
   OffsetLine line;
   double from = 0.0, to = 0.0;  ///< outermost profiles on the line, positions along the grid [px]

@@ -106,12 +106,13 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   border.in_view = stretch->length() >= wanted;
   border.sought = border.in_view && memory_.known();
   if (!border.sought) return border;
-  const double most = std::max(kMinReachPx, kReach * longerSide(image));
+  const double pixel = pixelAcross(lens, stretch->from, stretch->to),
+               most = std::max(kMinReachPx, kReach * longerSide(image));
   const int reach =
-      static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px + 1.0, kMinReachPx, most)));
+      static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px / pixel + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinFollowed, kProfiles);
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
-  const auto match = memory_.match(coarse_, reach, size_px);
+  const auto match = memory_.match(coarse_, reach, size_px / coarse_.pixel());
   border.similarity = match ? match->similarity : 0.0;
   border.fitted =
       match && match->similarity >= kMinSimilarity && fit(image, lens, match->line, size_px, border);
@@ -137,11 +138,11 @@ bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens,
   if (!fit_.run(limits, fitted)) return false;
   edge_ = fitted;
   seen_ = {coarse.offset + fitted.line.offset, coarse.slope + fitted.line.slope};
-  const double shift = fine_.along().dot(fine_.middle() - middle_);
-  fitted.line.offset += apart_.px(size_px) + apart_.slope * shift;
-  fitted.line.slope += apart_.slope;
-  fitted.sigma_px = std::hypot(fitted.sigma_px, apart_.sigma.px * size_px);
-  fitted.sigma_rad = std::hypot(fitted.sigma_rad, apart_.sigma.rad);
+  const double shift = fine_.along().dot(fine_.middle() - middle_), pixel = fine_.pixel();
+  fitted.line.offset += (apart_.px(size_px) + apart_.slope * shift) / pixel;
+  fitted.line.slope += apart_.slope / pixel;
+  fitted.sigma_px = std::hypot(fitted.sigma_px, apart_.sigma.px * size_px / pixel);
+  fitted.sigma_rad = std::hypot(fitted.sigma_rad, apart_.sigma.rad / pixel);
   border.inliers = static_cast<double>(fitted.inliers) / std::max(1, fine_.insideCount());
   border.line = fitted.inImage(fine_);
   border.a = fine_.point(fitted.from, fitted.line.at(fitted.from));
@@ -159,7 +160,8 @@ bool EdgeTracker::keepApart(const Line& border, double size_px, double furthest_
   if (!(std::max(std::abs(from), std::abs(to)) < furthest_px)) return false;
   const double slope = (to - from) / fine_.length();
   const double offset = 0.5 * (from + to) + slope * fine_.along().dot(middle_ - fine_.middle());
-  const bool is_same = apart_.sigma.known() && std::abs(offset - apart_.px(size_px)) < kSameApartPx;
+  const bool is_same =
+      apart_.sigma.known() && std::abs(offset - apart_.px(size_px)) < kSameApartPx * fine_.pixel();
   const double rate = is_same ? kApartRate : 1.0;
   apart_.offset += rate * (offset / (size_px * size_px) - apart_.offset);
   apart_.slope += rate * (slope - apart_.slope);
@@ -174,7 +176,7 @@ void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* len
   apart_ = {};
   soft_.reset();
   memory_.clear();
-  memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
+  memory_.learn(coarse_, {}, half_px_, size_px / coarse_.pixel(), 1.0);
 }
 
 void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
@@ -190,7 +192,8 @@ void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera*
     return learn(image, lens, border, size_px);
   learn(image, lens, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))},
         size_px);
-  apart_.offset = -edge.line.offset / (size_px * size_px), apart_.slope = -edge.line.slope;
+  apart_.offset = -fine_.pixel() * edge.line.offset / (size_px * size_px);
+  apart_.slope = -fine_.pixel() * edge.line.slope;
 }
 
 }  // namespace window_ingress::detection

@@ -47,7 +47,9 @@ class EdgeTracker {
   FollowedBorder follow(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& predicted,
                         double size_px, double sigma_px);
   /// Takes the edge as followed last into memory.
-  void keep(double size_px) { memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate); }
+  void keep(double size_px) {
+    memory_.learn(coarse_, seen_, half_px_, size_px / coarse_.pixel(), kLearningRate);
+  }
   /// The border lies there, beside the edge that was followed last: from now on it is reported so far from
   /// that edge. \return false, and nothing changed, if that is farther than `furthest_px`
   bool keepApart(const Line& border, double size_px, double furthest_px);

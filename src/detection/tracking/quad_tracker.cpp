@@ -143,13 +143,14 @@ bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* l
     const Vector2d &from = placed[i], &to = placed[(i + 1) % 4];
     const Edge& edge = borders.edges[(first + i) % 4];
     const Vector2d along = (to - from).normalized();
-    const Line border{0.5 * (from + to), {along.y(), -along.x()}, edge.sigma_px, edge.sigma_rad};
+    const double pixel = pixelAcross(lens, from, to);
+    const Line border{0.5 * (from + to), {along.y(), -along.x()}, pixel * edge.sigma_px, edge.sigma_rad};
     const bool shows = borders.fitted[(first + i) % 4];
-    const double furthest_px = shows ? kApartPx : kApartUnseen * meanSide(followed);
+    const double furthest_px = shows ? kApartPx * pixel : kApartUnseen * meanSide(followed);
     const SideSigma& known = borders.known[(first + i) % 4];
     const bool is_cut =
         std::min(marginOf(image, from), marginOf(image, to)) < kCutPart * std::max(image.cols, image.rows);
-    const bool is_vague = (!known.known() || known.px > kVaguePx) && (is_cut || !shows);
+    const bool is_vague = (!known.known() || known.px > kVaguePx * pixel) && (is_cut || !shows);
     if (borders_[i].fitted && (is_vague || edges_[i].keepApart(border, meanSide(followed), furthest_px)))
       continue;
     edges_[i].learnNear(image, lens, {from, to}, meanSide(quad));

@@ -12,17 +12,6 @@ constexpr double kUnknownSigmaPx = 1.0;  // of a corner where the observation br
 
 bool isUsable(double sigma) { return std::isfinite(sigma) && sigma > 0.0; }
 
-// Derivative of the undistorted by the distorted pixel.
-Eigen::Matrix2d undistortionSlope(const geometry::PinholeCamera& camera, const Eigen::Vector2d& ideal_px) {
-  if (!camera.hasDistortion()) return Eigen::Matrix2d::Identity();
-  Eigen::Matrix2d distortion;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d h = 0.5 * Eigen::Vector2d::Unit(axis);
-    distortion.col(axis) = camera.distort(ideal_px + h) - camera.distort(ideal_px - h);
-  }
-  return distortion.inverse();
-}
-
 bool bordersAreUsable(const detection::WindowObservation& window) {
   return std::all_of(window.edges.begin(), window.edges.end(), [](const detection::Edge& edge) {
     return !edge.visible || (isUsable(edge.sigma_px) && isUsable(edge.sigma_rad));
@@ -45,17 +34,15 @@ std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowOb
   std::array<Eigen::Matrix2d, 4> slopes;
   for (int i = 0; i < 4; ++i) {
     measurement.corners_px_.segment<2>(2 * i) = camera.undistort(window.corners[i]);
-    slopes[i] = undistortionSlope(camera, measurement.corners_px_.segment<2>(2 * i));
+    slopes[i] = camera.distortionSlope(measurement.corners_px_.segment<2>(2 * i)).inverse();
     if (!measurement.corners_px_.segment<2>(2 * i).allFinite() || !slopes[i].allFinite()) return std::nullopt;
   }
   const int visible = window.visibleSides();
   if (visible > 0 && (visible < 4 || bordersAreUsable(window))) {
     for (int i = 0; i < 4; ++i) {
-      const double scale =
-          std::sqrt(std::sqrt(std::abs(slopes[i].determinant() * slopes[(i + 1) % 4].determinant())));
       const Eigen::Vector2d from = measurement.corners_px_.segment<2>(2 * i),
                             to = measurement.corners_px_.segment<2>(2 * ((i + 1) % 4));
-      if (window.edges[i].visible && !measurement.addBorder(window.edges[i], i, from, to, scale, noise))
+      if (window.edges[i].visible && !measurement.addBorder(window.edges[i], i, from, to, camera, noise))
         return std::nullopt;
     }
     return measurement;
@@ -74,9 +61,7 @@ std::optional<ImageMeasurement> ImageMeasurement::ofPartial(const detection::Win
     const detection::Edge& edge = window.edges[i];
     if (!edge.visible) continue;
     const Eigen::Vector2d from = camera.undistort(edge.a), to = camera.undistort(edge.b);
-    const double scale = std::sqrt(std::abs(undistortionSlope(camera, 0.5 * (from + to)).determinant()));
-    if (!from.allFinite() || !to.allFinite() || !std::isfinite(scale) ||
-        !measurement.addBorder(edge, i, from, to, scale, noise))
+    if (!from.allFinite() || !to.allFinite() || !measurement.addBorder(edge, i, from, to, camera, noise))
       return std::nullopt;
   }
   if (measurement.border_count_ == 0) return std::nullopt;
@@ -96,11 +81,12 @@ bool ImageMeasurement::cross() {
 }
 
 bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
-                                 const Eigen::Vector2d& to, double scale, const ImageNoise& noise) {
-  const double length = (to - from).norm();
-  if (!(length > 1e-3)) return false;
-  const double systematic = noise.systematic_sigma_px;
-  const double across = isUsable(edge.sigma_px) ? scale * edge.sigma_px : kUnknownSigmaPx / std::sqrt(2.0);
+                                 const Eigen::Vector2d& to, const geometry::PinholeCamera& camera,
+                                 const ImageNoise& noise) {
+  const double length = (to - from).norm(), pixel = camera.pixelAcross(0.5 * (from + to), to - from);
+  if (!(length > 1e-3) || !std::isfinite(pixel)) return false;
+  const double systematic = pixel * noise.systematic_sigma_px;
+  const double across = isUsable(edge.sigma_px) ? pixel * edge.sigma_px : kUnknownSigmaPx / std::sqrt(2.0);
   const double turn = isUsable(edge.sigma_rad) ? edge.sigma_rad : kUnknownSigmaPx * std::sqrt(2.0) / length;
   const double white_px = std::max(across, kMinWhiteSigmaPx),
                white_slope = std::max(turn, kMinWhiteSigmaPx / length);

@@ -59,9 +59,9 @@ class ImageMeasurement {
   static std::optional<ImageMeasurement> ofPartial(const detection::WindowObservation& window,
                                                    const geometry::PinholeCamera& camera,
                                                    const ImageNoise& noise);
-  /// \param from,to points of the border, undistorted \param scale undistorted pixels a pixel
+  /// \param from,to points of the border, undistorted
   bool addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
-                 const Eigen::Vector2d& to, double scale, const ImageNoise& noise);
+                 const Eigen::Vector2d& to, const geometry::PinholeCamera& camera, const ImageNoise& noise);
   bool cross();
   void addCorner(const Eigen::Matrix2d& covariance, int corner, const ImageNoise& noise);
   void evaluateBorder(const Border& border, const CornerVector& predicted_px, int row,

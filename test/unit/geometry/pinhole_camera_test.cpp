@@ -68,6 +68,24 @@ TEST(PinholeCamera, AFisheyeIsUndoneAllOverTheImage) {
   EXPECT_EQ(camera.distort(centre), centre);
 }
 
+TEST(PinholeCamera, TellsHowWideAPixelIsAcrossALine) {
+  PinholeCamera camera = PinholeCamera::fromFieldOfView(640, 480, 1.6);
+  EXPECT_EQ(camera.pixelAcross({700, 100}, {3, 4}), 1.0);
+  camera.model = LensModel::kEquidistant;
+  const double angle = M_PI / 3.0;
+  const Eigen::Vector2d off(camera.cx + camera.fx * std::tan(angle), camera.cy);
+  EXPECT_NEAR(camera.pixelAcross(off, {0, 2}), 4.0, 1e-3) << "about the axis";
+  EXPECT_NEAR(camera.pixelAcross(off, {5, 0}), std::tan(angle) / angle, 1e-3) << "away from it";
+  // A line and its neighbour one image pixel beside it, at any slant.
+  for (const Eigen::Vector2d& along : {Eigen::Vector2d(1, 2), Eigen::Vector2d(-3, 1)}) {
+    const Eigen::Vector2d unit = along.normalized(), across(-unit.y(), unit.x());
+    const double pixel = camera.pixelAcross(off, along);
+    const Eigen::Vector2d way = camera.distort(off + 5 * unit) - camera.distort(off - 5 * unit);
+    const Eigen::Vector2d moved = camera.distort(off + pixel * across) - camera.distort(off);
+    EXPECT_NEAR(std::abs(way.x() * moved.y() - way.y() * moved.x()) / way.norm(), 1.0, 0.02);
+  }
+}
+
 TEST(PinholeCamera, AFisheyeSeesNothingSidewaysAndStaysFinite) {
   PinholeCamera camera = fisheye();
   EXPECT_TRUE(camera.undistort({1e5, 240.0}).allFinite());

@@ -44,6 +44,29 @@ TEST(ImageMeasurement, ResidualsOfTheTrueViewHaveUnitVariance) {
   for (int k = 0; k < 8; ++k) EXPECT_NEAR(squares(k), 1.0, 0.15) << k;
 }
 
+// Both errors are of the image as it came; 63 degrees off the axis the ideal pixels are five times smaller.
+TEST(ImageMeasurement, ErrorsOfAFisheyesImageAreItsPixels) {
+  geometry::PinholeCamera fisheye = camera();
+  fisheye.model = geometry::LensModel::kEquidistant;
+  fisheye.fx = fisheye.fy = 320.0 / 1.309;
+  const auto T = view(0.3, 0.0);
+  const CornerVector truth = predictOpening(fisheye, T, kOpening)->corners_px;
+  for (const double white_px : {0.5, 1e-3}) {
+    ImageNoise noise;
+    noise.systematic_sigma_px = white_px > 0.1 ? 1e-4 : 0.5 * std::sqrt(2.0);
+    detection::WindowObservation window;
+    window.corner_visible.fill(false);
+    const double shift_px = 0.5, lens_off = truth(2);  // of the right side, outwards
+    const Eigen::Vector2d middle = fisheye.distort({lens_off, fisheye.cy});
+    const double seen = fisheye.undistort({middle.x() + shift_px, middle.y()}).x();
+    window.edges[geometry::kRight] = {true, white_px, 0.01, fisheye.distort({seen, truth(3)}),
+                                      fisheye.distort({seen, truth(5)})};
+    const auto image = ImageMeasurement::make(window, fisheye, noise);
+    ASSERT_TRUE(image);
+    EXPECT_NEAR(std::abs(image->evaluate(truth).residual(0)), 1.0, 0.05) << white_px;
+  }
+}
+
 TEST(ImageMeasurement, CornersAreUsedWhereBordersBringNothing) {
   auto window = cornersSeen(camera(), view(4.0, 0.4), 0.5);
   ImageNoise noise;

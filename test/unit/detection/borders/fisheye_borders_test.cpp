@@ -1,0 +1,91 @@
+/// Borders far off the axis of a fisheye, where the undistorted image is stretched fourfold and more.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "detection/tracking/edge_tracker.hpp"
+#include "drawn_window.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
+
+namespace window_ingress::detection::fisheye_borders_test {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+/// 150 degrees wide.
+geometry::PinholeCamera fisheye() {
+  auto camera = geometry::PinholeCamera::fromFieldOfView(640, 512, 1.0);
+  camera.model = geometry::LensModel::kEquidistant;
+  camera.fx = camera.fy = 320.0 / 1.309;
+  return camera;
+}
+
+/// An opening, its right side 60 degrees off the axis and its left one 35, undistorted.
+Quadrilateral opening(double shift_px) {
+  const geometry::PinholeCamera lens = fisheye();
+  Quadrilateral quad = test::turned(test::rectangle(-0.7, -1.1, 1.75, 1.0), 0.05, 0.1);
+  for (Vector2d& p : quad) p = lens.fx * p + Vector2d(lens.cx + shift_px, lens.cy);
+  return quad;
+}
+
+/// What the fisheye shows of it; from 4 x 4 samples a pixel.
+cv::Mat drawn(const Quadrilateral& ideal, double noise, unsigned seed) {
+  const geometry::PinholeCamera lens = fisheye();
+  cv::Mat image(lens.height, lens.width, CV_8UC1, cv::Scalar(170));
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      int inside = 0;
+      for (int k = 0; k < 16; ++k)
+        inside += geometry::contains(
+            ideal, lens.undistort({x - 0.375 + 0.25 * (k % 4), y - 0.375 + 0.25 * (k / 4)}));
+      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(170 - 110.0 * inside / 16);
+    }
+  cv::GaussianBlur(image, image, cv::Size(), 0.7);
+  test::addNoise(image, noise, seed);
+  return image;
+}
+
+/// How far a point of the ideal image lies beside a side of it, in pixels of the image as it came.
+double besideSide(const Quadrilateral& ideal, int side, const Vector2d& point) {
+  const Vector2d from = ideal[side], span = ideal[(side + 1) % 4] - from;
+  const Vector2d foot = from + span * ((point - from).dot(span) / span.squaredNorm());
+  return std::copysign((point - foot).norm(), span.x() * (point - foot).y() - span.y() * (point - foot).x()) /
+         fisheye().pixelAcross(foot, span);
+}
+
+TEST(FisheyeBorders, CornersAreLocatedToATenthOfAPixelOfTheImage) {
+  const geometry::PinholeCamera lens = fisheye();
+  const BorderRefinement refinement;
+  for (const double shift_px : {0.0, 3.3}) {
+    const Quadrilateral ideal = opening(shift_px);
+    Quadrilateral truth, start;
+    for (int i = 0; i < 4; ++i) truth[i] = lens.distort(ideal[i]);
+    start = test::grown(truth, 1.0);
+    const auto borders = refinement.run(drawn(ideal, 3.0, 7), {start, 3.0}, &lens);
+    ASSERT_TRUE(borders) << shift_px;
+    EXPECT_LT(test::worstCorner(borders->corners, truth), 0.1) << shift_px;
+  }
+}
+
+// The window comes nearer by as much as it does between two images at a third of a metre.
+TEST(FisheyeBorders, ABorder60DegreesOffTheAxisIsFollowedAndItsSpreadIsHonest) {
+  const geometry::PinholeCamera lens = fisheye();
+  const int side = geometry::kRight, trials = 24;
+  double squares = 0.0;
+  for (int i = 0; i < trials; ++i) {
+    const Quadrilateral before = opening(0.0), now = opening(18.0 + 0.37 * i);
+    const auto stretch = [&](const Quadrilateral& quad) { return Stretch{quad[side], quad[(side + 1) % 4]}; };
+    EdgeTracker tracker;
+    tracker.learn(drawn(before, 6.0, 100 + i), &lens, stretch(before), 500.0);
+    const auto seen = tracker.follow(drawn(now, 6.0, 200 + i), &lens, stretch(opening(10.0)), 510.0, 6.0);
+    ASSERT_TRUE(seen.fitted) << i;
+    const double off_px = besideSide(now, side, seen.line.point);
+    EXPECT_LT(std::abs(off_px), 0.1) << i;
+    const Edge edge = edgeThroughLens(seen.line, seen.a, seen.b, &lens);
+    squares += std::pow(off_px / edge.sigma_px, 2) / trials;
+  }
+  EXPECT_GT(squares, 0.3);
+  EXPECT_LT(squares, 3.0);
+}
+
+}  // namespace window_ingress::detection::fisheye_borders_test
