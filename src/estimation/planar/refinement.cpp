@@ -34,6 +34,11 @@ void addGravity(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_windo
   out.gradient.segment<3>(3) += gravity.by_rotation.transpose() * gravity.residual;
 }
 
+CornerVector throughLens(const geometry::PinholeCamera& camera, CornerVector corners_px) {
+  for (int i = 0; i < 4; ++i) corners_px.segment<2>(2 * i) = camera.distort(corners_px.segment<2>(2 * i));
+  return corners_px;
+}
+
 std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const FitPoint& point,
                                          const NormalEquations& equations) {
   const Eigen::LLT<Matrix8d> information(equations.information);
@@ -47,7 +52,9 @@ std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const
   solution.opening_log_covariance =
       problem.size_root * covariance.bottomRightCorner<2, 2>() * problem.size_root.transpose();
   const auto predicted = predictOpening(problem.camera, point.T_camera_window, solution.opening);
-  solution.reprojection_rms_px = (predicted->corners_px - problem.image.cornersPx()).norm() / std::sqrt(8.0);
+  const CornerVector off_px = throughLens(problem.camera, predicted->corners_px) -
+                              throughLens(problem.camera, problem.image.cornersPx());
+  solution.reprojection_rms_px = off_px.norm() / std::sqrt(8.0);
   solution.cost = equations.cost_without_gravity;
   return solution;
 }
