@@ -11,16 +11,16 @@ using Eigen::Vector2d;
 
 constexpr double kMarginPx = 2.0;  // of a profile's middle from the border of the image
 
-/// Pixels of the points middle + o * normal of the undistorted image, as a parabola in o: what a lens bends
-/// beyond that is less than a thousandth of a pixel over the reach of a profile.
+/// Pixels of the points middle + o * step of the undistorted image, as a parabola in o: what a lens bends
+/// beyond that is less than a thousandth of a pixel over the reach of a profile, and a hundredth 60 degrees
+/// off a fisheye's axis.
 struct Path {
   Vector2d at, slope, bend;
 
-  Path(const Vector2d& middle, const Vector2d& normal, double reach, const geometry::PinholeCamera* lens)
-      : at(middle), slope(normal), bend(Vector2d::Zero()) {
+  Path(const Vector2d& middle, const Vector2d& step, double reach, const geometry::PinholeCamera* lens)
+      : at(middle), slope(step), bend(Vector2d::Zero()) {
     if (!lens) return;
-    const Vector2d low = lens->distort(middle - reach * normal),
-                   high = lens->distort(middle + reach * normal);
+    const Vector2d low = lens->distort(middle - reach * step), high = lens->distort(middle + reach * step);
     at = lens->distort(middle);
     slope = (high - low) / (2.0 * reach);
     bend = (0.5 * (high + low) - at) / (reach * reach);
