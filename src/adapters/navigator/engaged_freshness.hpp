@@ -39,8 +39,8 @@ class EngagedFreshness {
       return {Health::kError, "nothing on " + topic + " yet, and engagement/required: no mission can start"};
     if (!heard_) return {Health::kOk, "nothing on " + topic + ": taken to follow setpoints"};
     if (isSilent(now_sec)) return {Health::kError, topic + " has fallen silent: taken to be out of control"};
-    return {Health::kOk,
-            engaged_ ? "follows setpoints" : "not armed, not in a mode that follows setpoints, or in a failsafe"};
+    return {Health::kOk, engaged_ ? "follows setpoints"
+                                  : "not armed, not in a mode that follows setpoints, or in a failsafe"};
   }
 
  private:

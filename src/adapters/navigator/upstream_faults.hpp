@@ -45,8 +45,7 @@ class UpstreamFaults {
   static constexpr double kForgottenSec = 3.0;  // diagnostics come once a second
   static constexpr std::size_t kLongestText = 200;
   static constexpr const char* kInputs[] = {"window_detector: image", "window_detector: camera_info",
-                                            "homography_pose: imu",
-                                            "engaged_from_mavros: autopilot"};
+                                            "homography_pose: imu", "engaged_from_mavros: autopilot"};
 
   struct Fault {
     double heard_sec;  ///< on the steady clock

@@ -44,7 +44,8 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, 
   if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
   if (!situation.camera_fault.empty()) faults.push_back(situation.camera_fault);
   if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
-  if (!engaged) faults.push_back("the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
+  if (!engaged)
+    faults.push_back("the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
   if (!situation.vehicle) return faults;
   if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
     faults.push_back("above limits/max_height_m");
