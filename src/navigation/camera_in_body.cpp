@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 namespace {
 
 constexpr double kWidestFovRad = 2.8;  // who sees more is taken to see this much
+constexpr double kLooksForward = 0.7;  // least part of the axis: some 45 degrees
+constexpr double kBesideBodyM = 0.02;
 
 double narrowerTwice(double one_rad, double other_rad) {
   return std::min(kWidestFovRad, 2.0 * std::min(one_rad, other_rad));
@@ -34,6 +37,22 @@ CameraInBody cameraInBody(const geometry::PinholeCamera& camera, const Eigen::Is
 std::string faultOf(const CameraInBody& camera) {
   const auto faults = parameters::outOfRange(withCamera({}, camera));
   return faults.empty() ? "" : "camera_info or mounting of the camera: " + parameters::joined(faults);
+}
+
+std::string whyNotMounted(const Eigen::Isometry3d& T_base_camera, const VehicleParams& vehicle) {
+  const Eigen::Vector3d axis = T_base_camera.linear().col(2), at = T_base_camera.translation();
+  if (!(axis.x() >= kLooksForward))
+    return formatted(
+        "the camera does not look forward: its optical axis is (%.2f, %.2f, %.2f) in the body; angles are "
+        "radians, an optical frame has z forward",
+        axis.x(), axis.y(), axis.z());
+  const Eigen::Vector3d half(vehicle.half_length_m, vehicle.half_width_m, vehicle.half_height_m);
+  if ((at.cwiseAbs() - half).maxCoeff() <= kBesideBodyM) return "";
+  return formatted(
+      "the camera, at (%.2f, %.2f, %.2f) m, lies outside of the vehicle, which reaches %g x %g x %g m from "
+      "its "
+      "middle: measure both (camera_pose, vehicle/half_length_m, half_width_m, half_height_m)",
+      at.x(), at.y(), at.z(), half.x(), half.y(), half.z());
 }
 
 VehicleParams withCamera(VehicleParams vehicle, const CameraInBody& camera) {

@@ -156,11 +156,12 @@ void checkSpeeds(const configuration::Overlay& overlay) {
                   guarded, speed));
 }
 
-void checkCameraPose(const std::string& text) {
+void checkCameraPose(const std::string& text, const navigation::VehicleParams& vehicle) {
   if (text.empty()) return;
   const std::vector<double> pose = tools::numbers("camera_pose", text, 6);
   try {
-    adapters::T_base_cameraOf(pose);
+    const std::string why = navigation::whyNotMounted(adapters::T_base_cameraOf(pose), vehicle);
+    if (!why.empty()) throw InputError(why);
   } catch (const InputError& error) {
     throw InputError("camera_pose " + text + ": " + error.what());
   }
@@ -268,7 +269,7 @@ int check(const Options& o) {
     overlay = configuration::readOverlay(existing(file), configuration::readOverlay(given(o.defaults)));
   });
   if (is_read) checkOverlay(o, file, overlay, faults);
-  faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
+  faults.collect([&] { checkCameraPose(given(o.camera_pose), overlay.vehicle); });
   if (!o.scenario.empty()) faults.collect([&] { checkScenario(o); });
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.throwIfAny();

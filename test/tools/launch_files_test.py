@@ -208,7 +208,8 @@ def test_what_a_launch_file_would_refuse_is_refused_by_hand_too(tmp_path):
         assert done.returncode == 2 and not done.stdout and why in done.stderr, done.stderr
 
 
-@pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers")])
+@pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers"),
+                                        ("0.1,0.5,0.02,0,0,0", "lies outside of the vehicle"), ("0.1,0,0.02,0,2,0", "does not look forward")])
 def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, said):
     done = run("roslaunch", "--nodes", ROOT / "launch/px4.launch", *SIZE, f"camera_pose:={pose}")
     assert done.returncode == 1 and "camera_pose" in done.stderr and said in done.stderr, done.stderr
@@ -216,8 +217,8 @@ def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, 
 
 @pytest.mark.parametrize("name", ["px4", "rehearse"])
 def test_a_mounting_is_given_with_or_without_brackets(name):
-    for pose in ("[0.1,0,0.02,0,0.1,0]", "0.1,0,0.02,0,0.1,0"):
-        assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.1, 0]
+    for pose in ("[0.05,0,0.02,0,0.1,0]", "0.05,0,0.02,0,0.1,0"):
+        assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.05, 0, 0.02, 0, 0.1, 0]
 
 
 def refusal(*launch):

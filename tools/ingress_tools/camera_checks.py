@@ -2,6 +2,7 @@
 from ingress_tools.remedies import remedy
 
 LOOKS_FORWARD = 0.7  # least part of an axis: some 45 degrees
+BESIDE_BODY_M = 0.02
 
 
 def check_calibration(system, report):
@@ -42,5 +43,10 @@ def check_mounting(system, report):
     if forward[0] < LOOKS_FORWARD or down[2] > -LOOKS_FORWARD:
         report.error(f"tf: {camera} does not look forward: its z axis is ({forward[0]:+.2f}, {forward[1]:+.2f}, {forward[2]:+.2f}) in {base}; "
                      "an optical frame has z forward, x right, y down", "give the optical frame, or camera_pose:=x,y,z,yaw,pitch,roll", [camera])
+        return
+    half = [system.parameter("vehicle", f"half_{side}_m", 0.25) for side in ("length", "width", "height")]
+    if any(abs(value) > reach + BESIDE_BODY_M for value, reach in zip(T_base_camera[:3, 3], half)):
+        report.error(f"tf: {camera} at ({at}) m in {base} lies outside of the vehicle, which reaches {' x '.join(map(str, half))} m from its middle",
+                     "measure both: camera_pose:=x,y,z,yaw,pitch,roll, and vehicle: {half_length_m, half_width_m, half_height_m} in your config", [camera])
     else:
         report.ok(f"tf: {camera} at ({at}) m in {base}, looks forward")

@@ -23,6 +23,10 @@ CameraInBody cameraInBody(const geometry::PinholeCamera& camera, const Eigen::Is
 /// Why nobody can fly by such a camera: a number that is not within the range of the vehicle's parameters.
 std::string faultOf(const CameraInBody& camera);
 
+/// Why no vehicle has its camera there: it does not look forward, or lies outside of the body. Empty if
+/// nothing speaks against it; a place that is wrong within the body nobody can tell.
+std::string whyNotMounted(const Eigen::Isometry3d& T_base_camera, const VehicleParams& vehicle);
+
 /// The vehicle with this camera in place of its parameters.
 VehicleParams withCamera(VehicleParams vehicle, const CameraInBody& camera);
 

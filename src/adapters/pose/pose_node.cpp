@@ -199,6 +199,7 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
     out.camera = toMsg(navigation::cameraInBody(*camera.value, *T_base_camera_.value));
   else
     out.camera.fault = camera ? T_base_camera_.reason : "no calibration: " + camera.reason;
+  if (out.camera.fault.empty()) out.camera.fault = navigation::whyNotMounted(*T_base_camera_.value, vehicle_);
   if (out.camera.fault.empty() && !lockstep_ && odom_health_.silentSec() > kOdometryGoneSec)
     out.camera.fault = "the pose node has no odometry: " + odom_health_.health().text;
   if (!camera && window) {

@@ -37,6 +37,22 @@ TEST(CameraInBody, TurnedAsideItSeesLessByTwiceTheAngle) {
   }
 }
 
+TEST(CameraInBody, SitsInTheBodyAndLooksForward) {
+  VehicleParams vehicle;  // reaches 0.25 m ahead and aside, 0.12 m up
+  const auto why = [&](const Eigen::Vector3d& at_m, double pitch_rad = 0.0, double yaw_rad = 0.0) {
+    return whyNotMounted(geometry::makePose(mounted(pitch_rad, yaw_rad).linear(), at_m), vehicle);
+  };
+  EXPECT_EQ(why({0.25, -0.25, 0.12}), "");
+  EXPECT_EQ(why({0.1, 0.0, 0.0}, 0.5, 0.3), "");
+  for (const Eigen::Vector3d& at_m : {Eigen::Vector3d(0.3, 0, 0), {0.1, -0.5, 0}, {0.1, 0, 0.2}})
+    EXPECT_NE(why(at_m).find("lies outside of the vehicle"), std::string::npos) << at_m.transpose();
+  vehicle.half_width_m = 0.5;
+  EXPECT_EQ(why({0.1, -0.5, 0.0}), "");
+  EXPECT_NE(why({0.1, 0.0, 0.0}, 2.0).find("does not look forward"), std::string::npos);
+  EXPECT_NE(why({0.1, 0.0, 0.0}, 0.0, M_PI).find("does not look forward"), std::string::npos);
+  EXPECT_NE(why({0.1, 0.0, 0.0}, std::nan("")).find("does not look forward"), std::string::npos);
+}
+
 TEST(CameraInBody, APrincipalPointAsideSeesLessToThatSide) {
   auto aside = camera();
   aside.cx -= 40.0;
