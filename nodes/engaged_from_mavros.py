@@ -58,11 +58,11 @@ class Relay:
         said = f"{'follows' if engaged else 'does not follow'} setpoints: " \
                f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}" \
                f"{', in a failsafe' if fails else ''}"
-        self._level = DiagnosticStatus.ERROR if fails or not state.connected else DiagnosticStatus.OK
-        self._heard = time.monotonic()
         if said != self._said:
             self._say(rospy.loginfo, "the autopilot " + said)
             self._said = said
+        self._level = DiagnosticStatus.ERROR if fails or not state.connected else DiagnosticStatus.OK
+        self._heard = time.monotonic()
 
     def _health(self):
         if self._heard is None:

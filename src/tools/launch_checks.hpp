@@ -95,8 +95,8 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
     return (", " + words + ",").find(", " + value + ",") == std::string::npos ? "give one of " + words : "";
   if (isNumber(argument.standard)) {
     if (!isNumber(value)) return "give a number";
-    const bool has_sign = argument.doc.find("above 0") != std::string::npos;
-    return has_sign && !(std::strtod(value.c_str(), nullptr) > 0.0) ? "give a number above 0" : "";
+    const bool must_be_above = argument.doc.find("above 0") != std::string::npos;
+    return must_be_above && !(std::strtod(value.c_str(), nullptr) > 0.0) ? "give a number above 0" : "";
   }
   const bool is_path = !value.empty() && value != argument.standard && value[0] != '/';
   if (!is_path || argument.doc.find("whole path") == std::string::npos) return "";
