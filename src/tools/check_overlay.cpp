@@ -17,6 +17,7 @@
 #include "launch_checks.hpp"
 #include "navigation/mission/mission_rules.hpp"
 #include "params_file.hpp"
+#include "recorded_topics.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "size_checks.hpp"
 #include "window_ingress/configuration/overlay.hpp"
@@ -28,7 +29,8 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, launch_folder, record;
+      image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, launch_folder, record,
+      bag, plays;
 };
 
 tools::OptionList describe(Options& o) {
@@ -53,6 +55,9 @@ tools::OptionList describe(Options& o) {
   add("scenario", o.scenario, "yaml file of the simulated world");
   add("flown-by", o.flown_by, "parameter file whose sizes are compared with the simulated world's");
   add("record", o.record, "bag file to be written; refused if it is there");
+  add("bag", o.bag, "that is to be played; several with blanks between");
+  add("plays", o.plays,
+      "NAME=TOPIC with blanks between: arguments of replay.launch, refused if the bag has others");
   add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
   add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
   add("defaults", o.defaults, "yaml file that lies below FILE.yaml");
@@ -76,7 +81,7 @@ std::string given(std::string text) {
 // Something flies that is no simulation of ours.
 bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
 
-bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty(); }
+bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty() && o.bag.empty(); }
 
 /// \return width over height of the opening in the reference image; 0: nobody says it
 double checkReference(const Options& o, const std::string& file,
@@ -259,7 +264,7 @@ void checkScenario(const Options& o) {
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
-                            o.scenario.empty() && o.launch_folder.empty();
+                            o.scenario.empty() && o.launch_folder.empty() && o.bag.empty();
   if (asks_nothing) throw InputError("no file given; see --help");
   tools::InputFaults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
@@ -272,6 +277,7 @@ int check(const Options& o) {
   faults.collect([&] { checkCameraPose(given(o.camera_pose), overlay.vehicle); });
   if (!o.scenario.empty()) faults.collect([&] { checkScenario(o); });
   faults.collect([&] { checkIsNew(given(o.record)); });
+  faults.collect([&] { tools::checkPlayed(o.bag, o.plays); });
   faults.throwIfAny();
   if (isByHand(o) || (asksForSizes(o) && o.fly == "true"))
     std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";

@@ -361,6 +361,20 @@ def test_a_recording_that_is_not_there_is_named_before_anything_starts(tmp_path,
     assert "there.bag" not in done.stderr
 
 
+def test_topics_that_a_bag_has_under_other_names_are_named_before_anything_starts(tmp_path):
+    written = run("python3", ROOT / "test/ros/write_camera_bag.py", tmp_path / "flight.bag", "seconds=0.2", "image=/eye/image_raw")
+    assert written.returncode == 0, written.stderr
+    words = "roslaunch", "window_ingress", "replay.launch", f"bag:={tmp_path}/flight.bag"
+    done = run(*words, "imu:=/mavros/imu/data")
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    for said in ("/camera/image_raw/compressed", ": give image:=/eye/image_raw"), ("/camera/camera_info", ": give camera_info:=/eye/camera_info"), (
+            "/mavros/imu/data", ": give imu:=/imu"):
+        assert f"check_overlay: replay.launch: no {said[0]} in {tmp_path}/flight.bag{said[1]}\n" in done.stderr, done.stderr
+    assert "no /odom" not in done.stderr
+    right = f"image:=/eye/image_raw camera_info:=/eye/camera_info bag:={tmp_path}/flight.bag"
+    assert run("roslaunch", "--nodes", ROOT / "launch/replay.launch", *right.split()).returncode == 0
+
+
 @pytest.mark.parametrize("words, said", [
     ("replay.launch bag:={0}/text", "replay.launch: bag:={0}/text: is no bag file"),
     ("replay.launch bag:={0}/text rate:=0", "replay.launch: rate:=0: give a number above 0"),

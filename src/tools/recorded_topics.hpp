@@ -1,0 +1,64 @@
+/// Whether bags hold what replay.launch is to play from them.
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "launch_checks.hpp"
+
+namespace window_ingress::tools {
+
+/// Types of messages by the topics that the bags have together; empty if one of them cannot be opened, which
+/// others say.
+inline std::map<std::string, std::string> typesIn(const std::vector<std::string>& bags) {
+  std::map<std::string, std::string> types;
+  try {
+    for (const auto& file : bags) {
+      const rosbag::Bag bag(file);
+      for (const auto* topic : rosbag::View(bag).getConnections()) types[topic->topic] = topic->datatype;
+    }
+  } catch (const rosbag::BagException&) {
+    return {};
+  }
+  return types;
+}
+
+/// What an argument of replay.launch has to be for a topic of this type; empty if it does not play such.
+inline std::string argumentFor(const std::string& topic, const std::string& type) {
+  static const std::map<std::string, std::string> names = {
+      {"sensor_msgs/CameraInfo", "camera_info:="},
+      {"nav_msgs/Odometry", "odom:="},
+      {"sensor_msgs/Imu", "imu:="},
+      {"sensor_msgs/Image", "image_transport:=raw image:="}};
+  if (type == "sensor_msgs/CompressedImage") return "image:=" + topic.substr(0, topic.rfind('/'));
+  const auto name = names.find(type);
+  return name == names.end() ? "" : name->second + topic;
+}
+
+/// \param played NAME=TOPIC with blanks between, NAME as the argument that says it
+/// \throws InputError that names each topic that no bag has, and what they have in its place
+inline void checkPlayed(const std::string& files, const std::string& played) {
+  const auto types = typesIn(filesIn(files));
+  std::vector<std::string> faults;
+  std::istringstream words(types.empty() ? "" : played);
+  for (std::string word; words >> word;) {
+    const auto name = word.substr(0, word.find('=')), topic = word.substr(name.size() + 1);
+    if (types.count(topic) > 0) continue;
+    std::string others;
+    for (const auto& [other, type] : types) {
+      const std::string argument = argumentFor(other, type);
+      const bool is_aside = other.rfind("/ground_truth/", 0) == 0 || other.rfind("/debug_image", 0) == 0;
+      if (!is_aside && argument.find(name + ":=") != std::string::npos)
+        others += (others.empty() ? ": give " : " or ") + argument;
+    }
+    if (!others.empty()) faults.push_back("replay.launch: no " + topic + " in " + files + others);
+  }
+  if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
+}
+
+}  // namespace window_ingress::tools
