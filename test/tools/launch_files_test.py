@@ -217,8 +217,8 @@ def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, 
 
 @pytest.mark.parametrize("name", ["px4", "rehearse"])
 def test_a_mounting_is_given_with_or_without_brackets(name):
-    for pose in ("[0.05,0,0.02,0,0.1,0]", "0.05,0,0.02,0,0.1,0"):
-        assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.05, 0, 0.02, 0, 0.1, 0]
+    for pose in ("[0.1,0,0.02,0,0.1,0]", "0.1,0,0.02,0,0.1,0"):
+        assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.1, 0]
 
 
 def refusal(*launch):
