@@ -13,6 +13,7 @@ foreach(source ${tool_sources})
   target_link_libraries(${target} PRIVATE Boost::program_options yaml-cpp)
   if(tool STREQUAL check_overlay)  # launch files call it: it goes by what flies alone
     target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_simulation)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src/adapters/bags/bag_check.cpp)
   else()
     target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_evaluation nlohmann_json::nlohmann_json opencv_highgui opencv_imgcodecs)
     if(NOT WINDOW_INGRESS_CORE_ONLY AND (tool IN_LIST ros_tools OR tool STREQUAL fly))

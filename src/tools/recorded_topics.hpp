@@ -4,21 +4,27 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "adapters/bags/bag_reading.hpp"
 #include "launch_checks.hpp"
 
 namespace window_ingress::tools {
 
 /// Types of messages by the topics that the bags have together; empty if one of them cannot be opened, which
-/// others say.
+/// others say. \throws InputError for a damaged one: rosbag would read past its end
 inline std::map<std::string, std::string> typesIn(const std::vector<std::string>& bags) {
   std::map<std::string, std::string> types;
+  for (const auto& file : bags)
+    if (!std::filesystem::is_regular_file(file)) return {};
   try {
     for (const auto& file : bags) {
+      if (const std::string damage = adapters::whyDamaged(file); !damage.empty())
+        throw InputError(file + ": damaged: " + damage);
       const rosbag::Bag bag(file);
       for (const auto* topic : rosbag::View(bag).getConnections()) types[topic->topic] = topic->datatype;
     }

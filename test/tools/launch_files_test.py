@@ -371,6 +371,11 @@ def test_topics_that_a_bag_has_under_other_names_are_named_before_anything_start
             "/mavros/imu/data", ": give imu:=/imu"):
         assert f"check_overlay: replay.launch: no {said[0]} in {tmp_path}/flight.bag{said[1]}\n" in done.stderr, done.stderr
     assert "no /odom" not in done.stderr
+    content = (tmp_path / "flight.bag").read_bytes()
+    (tmp_path / "flight.bag").write_bytes(content[:len(content) // 2])
+    damaged = run("check_overlay", "--bag", tmp_path / "flight.bag", "--plays", "imu=/imu")
+    assert damaged.returncode == 2 and f"check_overlay: {tmp_path}/flight.bag: damaged: " in damaged.stderr, damaged.stderr
+    (tmp_path / "flight.bag").write_bytes(content)
     right = f"image:=/eye/image_raw camera_info:=/eye/camera_info bag:={tmp_path}/flight.bag"
     assert run("roslaunch", "--nodes", ROOT / "launch/replay.launch", *right.split()).returncode == 0
 
