@@ -60,7 +60,10 @@ struct Navigator::Impl {
   Decision behave(const Situation& situation) {
     return behaviour ? behaviour->step(situation, memory) : staying();
   }
-  Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
+  Decision staying() const {
+    const bool keeps_place = state == State::kHold || (state == State::kPassed && !stands_down);
+    return {{}, keeps_place, std::nullopt, reason};
+  }
   void change(State to, const std::string& why);
   Setpoint output(const Decision& decision, const Situation& situation);
   MeasuredVehicle measuredVehicle() const;

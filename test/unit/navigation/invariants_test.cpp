@@ -153,7 +153,8 @@ void expectInvariants(double hold_speed_mps) {
         ASSERT_EQ(velocity.norm(), 0.0) << toString(output.state);
       }
       if (!isMoving(output.state)) {
-        ASSERT_LE(velocity.norm(), params.hold.speed_mps + 1e-9) << toString(output.state);
+        ASSERT_LE(velocity.head<2>().norm(), params.hold.speed_mps + 1e-9) << toString(output.state);
+        ASSERT_LE(std::abs(velocity.z()), params.hold.speed_mps + 1e-9) << toString(output.state);
       }
       const bool was_trusted = now - fresh.trusted_sec <= params.input.max_target_age_sec;
       // Nothing but a trusted window leads forward, and the place that is kept leads back there, slowly. The

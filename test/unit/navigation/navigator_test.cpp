@@ -350,6 +350,22 @@ TEST_F(NavigatorSteps, AbortAfterTheEndKeepsNoPlace) {
   }
 }
 
+TEST_F(NavigatorSteps, HoldKeepsThePlaceOfSearch) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  ASSERT_EQ(steps(navigator, kFar, 10, false).state, State::kSearch);
+  const Eigen::Vector3d drifted = kFar + Eigen::Vector3d(0.0, 0.3, 0.0);
+  walk(navigator, kFar, drifted, false);
+  NavigatorOutput output;
+  for (int i = 0; i < 40; ++i) {
+    NavigatorInput blind = inputAt(drifted, now_ += kStep, false);
+    blind.image_stamp_sec = now_ - 5.0;
+    output = navigator.step(blind, now_);
+  }
+  ASSERT_EQ(output.state, State::kHold);
+  EXPECT_LT(output.setpoint.velocity_odom_mps.y(), -0.1) << "back to where the search began";
+}
+
 TEST_F(NavigatorSteps, GoesBackToNoPlaceThatSomebodyTookItFarAwayFrom) {
   Navigator navigator(params_);
   start(navigator, kFar);
