@@ -7,9 +7,9 @@ namespace window_ingress::configuration {
 using navigation::FrameNames;
 using navigation::StampLimits;
 
-/// Which images are taken.
+/// Limits of input images.
 struct ImageLimits {
-  int max_pixels = 8000000;  ///< images of more pixels are refused [px]
+  int max_pixels = 8000000;  ///< images with more pixels are refused [px]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("max_pixels", self.max_pixels, 1, 100000000);

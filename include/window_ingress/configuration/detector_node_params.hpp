@@ -12,12 +12,12 @@ namespace window_ingress::configuration {
 /// The reference image.
 struct ReferenceParams {
   std::string picture;          ///< JPEG or PNG file of the target; empty: no reference
-  std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, x1 y1 .. x4
-                                ///< y4 from top left, clockwise [px]; empty: the whole image is the target
-                                ///< with its frame
-  std::string capture_file;     ///< JPEG or PNG file that ~capture_reference writes, with a number if it is
-                                ///< there already; beside it .yaml, these parameters for it, and
-                                ///< _understood.png, what is made of it; empty: nothing is written
+  std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, clockwise
+                                ///< from the top left: x1 y1 .. x4 y4 [px]; empty: the whole image shows the
+                                ///< target with its frame
+  std::string capture_file;     ///< JPEG or PNG file written by ~capture_reference, numbered if it exists;
+                                ///< beside it, .yaml holds its parameters and _understood.png shows how it is
+                                ///< interpreted; empty: nothing is written
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("picture", self.picture);
@@ -28,7 +28,7 @@ struct ReferenceParams {
 
 struct DetectorNodeParams {
   std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
-  bool use_imu = true;     ///< predict tracks by the vehicle's attitude from `imu`, where messages come
+  bool use_imu = true;     ///< predict tracks with the vehicle's attitude from `imu`, if messages arrive
   double budget_ms = 0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
   bool lockstep = false;   ///< run step by step with the simulated world; only with use_sim_time
   ImageLimits image;

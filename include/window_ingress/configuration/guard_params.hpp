@@ -5,15 +5,14 @@
 namespace window_ingress::configuration {
 
 struct GuardParams {
-  double rate_hz = 30.0;            ///< rate of the setpoints sent to the autopilot [Hz]
-  double late_sec = 0.2;            ///< an input older than this, on the steady clock, no longer counts [s]
-  double max_speed_mps = 1.2;       ///< a faster setpoint is a fault: zero is sent [m/s]
-  double max_yaw_rate_radps = 1.0;  ///< a setpoint that turns faster is a fault: zero is sent [rad/s]
-  double stop_streaming_after_sec = 10.0;  ///< zeros for this long when sane input has stopped coming, then
-                                           ///< nothing at all, so that the autopilot's own failsafe acts; 0:
-                                           ///< zeros for ever [s]
-  bool lockstep = false;       ///< pass each input on at once and send nothing else; for the simulated world
-  std::string frame = "odom";  ///< frame_id of the zeros before the first input
+  double rate_hz = 30.0;                   ///< rate of the setpoints sent to the autopilot [Hz]
+  double late_sec = 0.2;                   ///< an input older than this on the steady clock is ignored [s]
+  double max_speed_mps = 1.2;              ///< a faster setpoint is a fault: zero is sent [m/s]
+  double max_yaw_rate_radps = 1.0;         ///< a setpoint that turns faster is a fault: zero is sent [rad/s]
+  double stop_streaming_after_sec = 10.0;  ///< zeros are sent for this long after valid input stops, then
+                                           ///< nothing, so that the autopilot's failsafe acts; 0: no end [s]
+  bool lockstep = false;  ///< pass each input on at once and send nothing else; only for the simulated world
+  std::string frame = "odom";  ///< frame_id of the zero setpoints sent before the first input
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 20.0, 200.0);

@@ -6,10 +6,10 @@
 
 namespace window_ingress::configuration {
 
-/// The autopilot's word on `engaged` that it follows setpoints.
+/// The topic `engaged`: whether the autopilot follows setpoints.
 struct EngagementParams {
-  bool required = false;  ///< no mission starts before somebody has said that the vehicle follows setpoints
-  double max_silence_sec = 3.0;  ///< once said, it must be repeated within this time, or the mission ends [s]
+  bool required = false;  ///< no mission starts before `engaged` reports that the vehicle follows setpoints
+  double max_silence_sec = 3.0;  ///< the mission ends if `engaged` falls silent for longer than this [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("required", self.required);
@@ -17,10 +17,10 @@ struct EngagementParams {
   }
 };
 
-/// The guard's word on `passed_on` that setpoints reach the autopilot.
+/// The topic `passed_on`: whether the guard passes setpoints on to the autopilot.
 struct GuardMonitorParams {
-  bool required = false;          ///< no mission starts before the guard has passed something on
-  double max_silence_sec = 0.25;  ///< a guard that is silent for longer than this passes nothing on [s]
+  bool required = false;          ///< no mission starts before the guard has passed on a setpoint
+  double max_silence_sec = 0.25;  ///< a guard silent for longer than this counts as passing nothing on [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("required", self.required);
@@ -29,14 +29,14 @@ struct GuardMonitorParams {
 };
 
 struct NavigatorNodeParams {
-  double rate_hz = 30.0;          ///< rate of the setpoints [Hz]
-  double max_silence_sec = 0.25;  ///< odometry that has not arrived for this long, on the steady clock, is
-                                  ///< gone [s]
-  double max_pose_silence_sec = 1.5;  ///< messages on window_pose that have not arrived for this long, on the
-                                      ///< steady clock, are gone [s]
-  std::string setpoint_frame = "odom";  ///< axes of the setpoints, whatever these frames are called
+  double rate_hz = 30.0;                ///< rate of the setpoints [Hz]
+  double max_silence_sec = 0.25;        ///< odometry is lost after this long without a message (steady clock)
+                                        ///< [s]
+  double max_pose_silence_sec = 1.5;    ///< window_pose is lost after this long without a message (steady
+                                        ///< clock) [s]
+  std::string setpoint_frame = "odom";  ///< axes of the setpoints, whatever names these frames have
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
-  bool start_at_once = false;  ///< start the mission with the first step at which it may; only in lockstep
+  bool start_at_once = false;  ///< start the mission at the first step that allows it; only in lockstep
   EngagementParams engagement;
   GuardMonitorParams guard;
   navigation::NavigatorParams navigator;

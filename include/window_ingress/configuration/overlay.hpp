@@ -1,4 +1,4 @@
-/// The one form in which a user changes parameters: a yaml file whose first level names the nodes, and the
+/// The one format in which a user changes parameters: a yaml file with a section for each node and for the
 /// vehicle.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace window_ingress::configuration {
 
-/// All that may stand in such a file, at its defaults. Launch files take it as config:=, tools as --params;
-/// each takes what concerns it from there and lets the rest be.
+/// All parameters that such a file may set, at their defaults. Launch files take the file as config:=, tools
+/// as --params; each uses the sections that concern it.
 struct Overlay {
   navigation::VehicleParams vehicle;
   DetectorNodeParams window_detector;
@@ -34,12 +34,12 @@ struct Overlay {
     field.group("world", self.world);
   }
 
-  std::set<std::string> said;  ///< paths of what the last file says: "vehicle/half_width_m"
+  std::set<std::string> said;  ///< paths of the keys in the last file: "vehicle/half_width_m"
 };
 
-/// Reads a file over what there is; no file, an empty name, leaves everything as it is. What it says of the
-/// vehicle is told to pose node and navigator, too. \throws InputError that names file, line and key of what
-/// nobody reads and of what cannot be
+/// Replaces the values that a file gives; an empty name changes nothing. The pose node and the navigator get
+/// the vehicle's values, too.
+/// \throws InputError that names file, line and key of each unknown key and each invalid value
 Overlay readOverlay(const std::string& file, Overlay overlay = {});
 
 }  // namespace window_ingress::configuration

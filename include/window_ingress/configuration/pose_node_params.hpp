@@ -10,11 +10,11 @@
 namespace window_ingress::configuration {
 
 struct PoseNodeParams {
-  std::string gravity_source = "imu";   ///< where "up" comes from
-  double odom_wait_sec = 0.05;          ///< longest wait of an image for odometry as new as itself [s]
+  std::string gravity_source = "imu";   ///< source of the direction of gravity
+  double odom_wait_sec = 0.05;          ///< longest time an image waits for odometry up to its own stamp [s]
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
-  bool publish_tf = false;              ///< broadcast the filtered window as a frame
-  std::string window_frame = "window";  ///< name of the frame that is broadcast for the filtered window
+  bool publish_tf = false;              ///< broadcast the filtered window as a tf frame
+  std::string window_frame = "window";  ///< name of the tf frame of the filtered window
   estimation::PoseParams pose;
   estimation::FilterParams filter;
   estimation::TargetEstimatorParams tracker;
@@ -31,10 +31,10 @@ struct PoseNodeParams {
   }
 };
 
-/// The same with what is said of the vehicle, and once for pose and filter.
+/// `params` with the vehicle's values, and with those that pose and filter share, filled in.
 PoseNodeParams forVehicle(PoseNodeParams params, const navigation::VehicleParams& vehicle);
 
-/// Of the opening: the vehicle with its margins.
+/// Size of opening that the vehicle needs, margins included.
 geometry::OpeningSize neededBy(const navigation::VehicleParams& vehicle);
 
 }  // namespace window_ingress::configuration

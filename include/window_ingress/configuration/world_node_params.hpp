@@ -7,21 +7,21 @@
 namespace window_ingress::configuration {
 
 struct WorldNodeParams {
-  std::string scenario;  ///< scenario file; empty: a calm day, five metres in front of the window
+  std::string scenario;  ///< scenario file; empty: calm air, start five metres in front of the window
   int seed = 1;          ///< seed of everything that the scenario marks random
-  std::string start_at = "scenario";  ///< where the house stands: as the scenario says, or, for a vehicle
-                                      ///< simulated elsewhere, before the place where that is first heard of
-                                      ///< and at each ~reset
+  std::string start_at = "scenario";  ///< position of the house: from the scenario, or, for a vehicle
+                                      ///< simulated elsewhere, in front of it at its first message and at
+                                      ///< each ~reset
   bool next_seed_at_reset = false;  ///< each ~reset takes the next seed: another flight of the same scenario
-  double real_time_factor = 1.0;    ///< simulated over real time, if the machine can keep up
+  double real_time_factor = 1.0;    ///< simulated time over real time, if the machine can keep up
   double wait_sec = 0.0;  ///< longest wait for subscribers to images and odometry before time starts [s]
-  bool lockstep = false;  ///< wait at each image until the vehicle has answered: runs repeat exactly
-  bool realtime = false;  ///< in lockstep: no faster than real_time_factor, instead of as fast as possible
+  bool lockstep = false;  ///< wait at each image until the vehicle has answered, so that runs repeat exactly
+  bool realtime = false;  ///< in lockstep: run no faster than real_time_factor instead of as fast as possible
   double lockstep_timeout_sec = 2.0;  ///< in lockstep: longest wait for the vehicle's answer, on the steady
                                       ///< clock [s]
-  std::string camera_info_url;  ///< calibration file that camera_info tells, and where set_camera_info saves
-                                ///< one: file:///.. or package://..; empty: the true calibration
-  std::string verdict_file;     ///< json file for the referee's verdict, written at the end; empty: none
+  std::string camera_info_url;  ///< calibration file (file:///.. or package://..) that camera_info publishes
+                                ///< and set_camera_info writes; empty: the true calibration
+  std::string verdict_file;     ///< JSON file for the referee's verdict, written at the end; empty: none
   std::string camera_frame = "camera_optical_frame";  ///< frame_id of the images
   FrameNames frames;
   template <typename Self, typename Visitor>

@@ -10,9 +10,9 @@ inline constexpr double kDegreesPerRad = 180.0 / M_PI;
 
 /// Euler angles of the paper [rad]: theta about x, phi about y, psi about z.
 ///
-/// The paper's matrix product (its eq. 8) does not fit its own angle formulas; the formulas are those of
-/// `R = Rz(psi) * Ry(phi) * Rx(theta)`, which is what stands here. For a forward-left-up frame they are roll,
-/// pitch and yaw.
+/// The paper's matrix product (its eq. 8) contradicts its own angle formulas, which belong to `R = Rz(psi) *
+/// Ry(phi) * Rx(theta)`. That product is used here. For a forward-left-up frame the angles are roll, pitch
+/// and yaw.
 struct EulerAngles {
   double theta_rad = 0.0;
   double phi_rad = 0.0;
@@ -26,8 +26,8 @@ EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation);
 /// Rz(psi) * Ry(phi) * Rx(theta).
 Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles);
 
-/// The relative yaw for people, in degrees: "yaw +12.3 +-0.4 deg", with "sign unknown" after it where it is.
-/// Spreads beyond a half turn say no more than that; they are cut there.
+/// The relative yaw for people, in degrees: "yaw +12.3 +-0.4 deg", followed by "sign unknown" if the sign is
+/// not trusted. The spread is limited to a half turn.
 std::string yawText(double yaw_rad, double sigma_rad, bool sign_trusted);
 
 }  // namespace window_ingress::geometry

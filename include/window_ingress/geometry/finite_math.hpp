@@ -1,4 +1,4 @@
-/// A build that takes NaN and infinity for impossible ends here: every safety check rests on isfinite().
+/// Stops a build that assumes finite math: every safety check relies on isfinite().
 #pragma once
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)

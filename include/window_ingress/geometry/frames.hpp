@@ -1,6 +1,6 @@
 /// Frames of the package and how transforms between them are named.
 ///
-/// `T_a_b` is the pose of frame b in frame a: `p_a = T_a_b * p_b`. Rotations are named `R_a_b` likewise.
+/// `T_a_b` is the pose of frame b in frame a: `p_a = T_a_b * p_b`. Rotations are named `R_a_b`.
 ///
 /// | frame    | axes                                                            | source  |
 /// |----------|-----------------------------------------------------------------|---------|
@@ -37,7 +37,7 @@ double wrapAngle(double angle_rad);
 
 /// True if every number is finite, and the matrix orthonormal to 1e-6 and no reflection.
 bool isRotation(const Eigen::Matrix3d& matrix);
-/// True if every number of the pose is finite and its rotation is one.
+/// True if every number of the pose is finite and its rotation is valid.
 bool isValidPose(const Eigen::Isometry3d& pose);
 
 }  // namespace window_ingress::geometry

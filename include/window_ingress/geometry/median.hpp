@@ -15,12 +15,11 @@ Value median(std::vector<Value>& values, Less less = Less()) {
   return *middle;
 }
 
-/// Likewise of each component by itself.
+/// The median of each component.
 inline Eigen::Vector3d componentwiseMedian(std::vector<Eigen::Vector3d>& values) {
   Eigen::Vector3d result;
   for (int axis = 0; axis < 3; ++axis)
-    result[axis] =
-        median(values, [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; })[axis];
+    result[axis] = median(values, [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; })[axis];
   return result;
 }
 

@@ -15,12 +15,13 @@ struct OpeningSize {
   double height_m = 0.0;
 };
 
-/// Corners of the opening's front inner border in the window frame [m], in the canonical order of the image of
-/// somebody who stands square in front of it: top left, top right, bottom right, bottom left.
+/// Corners of the opening's front inner border in the window frame [m], in canonical order as seen from the
+/// front: top left, top right, bottom right, bottom left.
 std::array<Eigen::Vector3d, 4> openingCorners(const OpeningSize& size);
 
 /// Image of the opening; nothing unless all four corners lie in front of the camera.
-std::optional<Quadrilateral> projectOpening(const PinholeCamera& camera, const Eigen::Isometry3d& T_camera_window,
+std::optional<Quadrilateral> projectOpening(const PinholeCamera& camera,
+                                            const Eigen::Isometry3d& T_camera_window,
                                             const OpeningSize& size);
 
 }  // namespace window_ingress::geometry

@@ -10,13 +10,13 @@
 
 namespace window_ingress::geometry {
 
-/// How a lens bends the image, by the names of sensor_msgs/CameraInfo.
+/// Lens distortion models, as sensor_msgs/CameraInfo names them.
 enum class LensModel {
   kPlumbBob,    ///< radial and tangential: k1, k2, p1, p2, k3
-  kEquidistant  ///< fisheye: the angle off the axis theta is seen at theta (1 + k1 theta^2 + .. + k4 theta^8)
+  kEquidistant  ///< fisheye: angle theta off the axis is seen at theta (1 + k1 theta^2 + .. + k4 theta^8)
 };
 
-/// Pinhole camera with a lens before it.
+/// Pinhole camera with lens distortion.
 ///
 /// Pixel centres are integers: the top left pixel's centre is (0, 0), and an ideal camera has its principal
 /// point at ((width - 1) / 2, (height - 1) / 2).
@@ -24,13 +24,13 @@ struct PinholeCamera {
   int width = 0;                                  ///< [px]
   int height = 0;                                 ///< [px]
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
-  std::array<double, 5> distortion{};  ///< as the model has them: k1, k2, p1, p2, k3, or k1, k2, k3, k4, 0
+  std::array<double, 5> distortion{};  ///< in the model's order: k1, k2, p1, p2, k3, or k1, k2, k3, k4, 0
   LensModel model = LensModel::kPlumbBob;
 
   /// Ideal camera, square pixels, centred principal point, no distortion.
   static PinholeCamera fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad);
 
-  /// What is wrong with this calibration, one text a fault; empty if it can be used.
+  /// Faults of this calibration, one text each; empty if it can be used.
   std::vector<std::string> validate() const;
 
   bool hasDistortion() const;
@@ -46,19 +46,19 @@ struct PinholeCamera {
   /// Derivative of `distort` at an ideal pixel.
   Eigen::Matrix2d distortionSlope(const Eigen::Vector2d& ideal_px) const;
 
-  /// How many ideal pixels one pixel of the image is wide, across a straight line of the ideal image that
-  /// runs through a point in a direction (of any length): 1 without distortion, 4 at 60 degrees off a
-  /// fisheye's axis where the line runs about it.
+  /// Width of one image pixel in ideal pixels, across a straight line of the ideal image through a point in a
+  /// direction (of any length). It is 1 without distortion, and 4 at 60 degrees off a fisheye's axis for a
+  /// line tangential to the axis.
   double pixelAcross(const Eigen::Vector2d& ideal_px, const Eigen::Vector2d& along) const;
 
-  /// Ideal pixel of a distorted one, by Newton iterations; to 1e-6 px within the image of any sane lens. A
-  /// fisheye's directions further than 1.5 rad off the axis have none: they get that of 1.5 rad.
+  /// Ideal pixel of a distorted one, by Newton iterations; accurate to 1e-6 px within the image of any sane
+  /// lens. Fisheye directions beyond 1.5 rad off the axis have no ideal pixel and get that of 1.5 rad.
   Eigen::Vector2d undistort(const Eigen::Vector2d& distorted_px) const;
 
   /// Line of sight (unit vector, optical frame) of an image pixel.
   Eigen::Vector3d ray(const Eigen::Vector2d& distorted_px) const;
 
-  /// True if the pixel lies in the image, at least `margin_px` from its border.
+  /// True if the pixel lies in the image, at least `margin_px` inside its border.
   bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const;
 };
 

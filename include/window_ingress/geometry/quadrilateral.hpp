@@ -20,16 +20,16 @@ bool isFinite(const Quadrilateral& quad);
 /// Area by the shoelace formula [px^2]: positive when clockwise on the screen, as canonical order is.
 double signedArea(const Quadrilateral& quad);
 
-/// Strictly convex and free of crossings, whatever the winding.
+/// Strictly convex and free of crossings, for either winding.
 bool isConvex(const Quadrilateral& quad);
 
 /// The same corners in canonical order, from any start corner and either winding. The first corner is the one
 /// with the smallest x + y. Nothing if the corners are not finite or not strictly convex in cyclic order.
 std::optional<Quadrilateral> canonical(const Quadrilateral& quad);
 
-Eigen::Vector2d centroid(const Quadrilateral& quad);  ///< mean of the corners [px]
-std::array<double, 4> sideLengths(const Quadrilateral& quad);      ///< top, right, bottom, left [px]
-std::array<double, 4> interiorAngles(const Quadrilateral& quad);   ///< at each corner [rad]
+Eigen::Vector2d centroid(const Quadrilateral& quad);              ///< mean of the corners [px]
+std::array<double, 4> sideLengths(const Quadrilateral& quad);     ///< top, right, bottom, left [px]
+std::array<double, 4> interiorAngles(const Quadrilateral& quad);  ///< at each corner [rad]
 
 /// Mean horizontal over mean vertical side length; 0 if the vertical sides have no length.
 double aspectRatio(const Quadrilateral& quad);

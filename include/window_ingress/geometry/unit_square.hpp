@@ -14,7 +14,7 @@ class UnitSquare {
 
   /// Pixel of a point of the square's plane; far outside any image for points beyond the horizon.
   Eigen::Vector2d toImage(const Eigen::Vector2d& unit) const { return apply(map_, unit); }
-  /// The map to the image in homogeneous coordinates; the third one of the result is positive before the
+  /// The map to the image in homogeneous coordinates; the third coordinate is positive on this side of the
   /// horizon.
   const Eigen::Matrix3d& matrix() const { return map_; }
   /// Point of the square's plane under a pixel.

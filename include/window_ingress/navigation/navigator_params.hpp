@@ -1,4 +1,4 @@
-/// Every number that the navigator flies by. Section `navigator` of config/navigator.yaml.
+/// Parameters of the navigator: section `navigator` of config/navigator.yaml.
 #pragma once
 
 #include <string>
@@ -7,18 +7,18 @@
 
 namespace window_ingress::navigation {
 
-/// What a setpoint may be, whatever a behaviour asks for.
+/// Limits of every setpoint, whatever a behaviour asks for.
 struct LimitParams {
   double speed_mps = 1.0;                ///< largest velocity of a setpoint [m/s]
   double acceleration_mps2 = 2.0;        ///< fastest change of velocity from setpoint to setpoint [m/s^2]
   double jerk_mps3 = 30.0;               ///< fastest change of acceleration from setpoint to setpoint [m/s^3]
   double yaw_rate_radps = 0.5;           ///< largest yaw rate of a setpoint [rad/s]
   double yaw_acceleration_radps2 = 2.0;  ///< fastest change of yaw rate from setpoint to setpoint [rad/s^2]
-  double min_height_m = 0.3;             ///< below this height in odom no setpoint leads down [m]
-  double max_height_m = 10.0;            ///< above this height in odom no setpoint leads up [m]
-  double fence_radius_m = 25.0;  ///< no setpoint leads further than this from the place of the start [m]
-  double wall_distance_m = 0.9;  ///< nearer to the window's plane than this, outside the funnel, setpoints
-                                 ///< lead away from it only [m]
+  double min_height_m = 0.3;             ///< below this height in odom no setpoint descends [m]
+  double max_height_m = 10.0;            ///< above this height in odom no setpoint climbs [m]
+  double fence_radius_m = 25.0;          ///< no setpoint leads further than this from the start position [m]
+  double wall_distance_m = 0.9;  ///< closer to the window's plane than this and outside the funnel, setpoints
+                                 ///< lead only away from it [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -34,15 +34,15 @@ struct LimitParams {
   }
 };
 
-/// When an input is believed. Ages count from the stamp of the measurement, for the window from the exposure.
+/// When an input is accepted. Ages count from the stamp of the measurement; the window's from the exposure.
 struct InputParams {
-  double max_vehicle_age_sec = 0.35;  ///< older odometry stops the vehicle, as does none for 0.2 s [s]
-  double max_target_age_sec = 0.3;    ///< an older estimate of the window stops the vehicle [s]
-  double max_image_age_sec = 1.0;  ///< without an image processed for longer than this the search stops [s]
-  double max_turned_rad = 0.7;     ///< a vehicle that flies this far beside the direction it is told ends the
-                                   ///< mission: setpoints and odometry differ in axes [rad]
-  double max_target_jump_m = 0.4;  ///< a window that moves further in odom between two estimates is believed
-                                   ///< only after half a second at its new place [m]
+  double max_vehicle_age_sec = 0.35;  ///< older odometry stops the vehicle; so does a gap of 0.2 s [s]
+  double max_target_age_sec = 0.3;    ///< a window estimate older than this stops the vehicle [s]
+  double max_image_age_sec = 1.0;     ///< the search stops if no image was processed for longer than this [s]
+  double max_turned_rad = 0.7;        ///< angle between commanded and flown direction that ends the mission:
+                                      ///< setpoints and odometry differ in axes [rad]
+  double max_target_jump_m = 0.4;  ///< a window that moves further than this in odom between two estimates is
+                                   ///< accepted only after half a second at its new place [m]
   double max_future_sec = 0.2;     // not in `visit`: `VehicleParams::stamps` says it
 
   template <typename Self, typename Visitor>
@@ -55,15 +55,15 @@ struct InputParams {
   }
 };
 
-/// SEARCH: turning on the spot, climbing to a height from which to look.
+/// SEARCH: turns on the spot and climbs to look from other heights.
 struct SearchParams {
-  double yaw_rate_radps = 0.5;  ///< fastest turn; slower where blur or few images ask for it [rad/s]
-  double max_blur_px = 2.0;     ///< blur that turning may bring into an image [px]
-  double height_m = 1.0;       ///< height of odom to climb to first; a vehicle that is higher stays there [m]
-  double height_step_m = 0.6;  ///< climb after each turn without success [m]
-  double climb_speed_mps = 0.3;  ///< fastest climb [m/s]
+  double yaw_rate_radps = 0.5;  ///< maximum yaw rate; lower if blur or the image rate requires it [rad/s]
+  double max_blur_px = 2.0;     ///< motion blur that turning may cause in an image [px]
+  double height_m = 1.0;        ///< height in odom to climb to first; a vehicle above it keeps its height [m]
+  double height_step_m = 0.6;   ///< climb after each full turn without success [m]
+  double climb_speed_mps = 0.3;  ///< maximum climb speed [m/s]
   int turns = 3;                 ///< full turns without success before the mission is given up
-  bool next_window = false;  ///< fly at the next best window after one that is closed or was tried in vain
+  bool next_window = false;      ///< try the next best window when one is closed or all attempts at it failed
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -77,19 +77,18 @@ struct SearchParams {
   }
 };
 
-/// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
-/// share.
+/// ALIGN: moves onto the window's normal while the camera points at the window. APPROACH and COMMIT use the
+/// same gains.
 struct AlignParams {
   double lateral_gain_hz = 1.75;    ///< sideways and upward velocity per metre of offset [1/s]
-  double lateral_speed_mps = 0.75;  ///< fastest sideways [m/s]
-  double vertical_speed_mps = 0.5;  ///< fastest upward and downward [m/s]
+  double lateral_speed_mps = 0.75;  ///< maximum sideways speed [m/s]
+  double vertical_speed_mps = 0.5;  ///< maximum upward and downward speed [m/s]
   double yaw_gain_hz = 3.0;         ///< yaw rate per radian of bearing; keep it above the lateral gain [1/s]
-  double min_distance_m = 2.0;      ///< distance to the window's plane below which it moves away first [m]
-  double probe_amplitude_m = 0.5;   ///< height of a probe that tells the sign of the window's yaw: up, back,
-                                    ///< down, back [m]
-  int max_probes = 4;               ///< height probes before the mission is given up
-  double step_m = 0.25;             ///< length of a step of the stepped scheme [m]
-  double step_pause_sec = 0.5;      ///< pause after a step of the stepped scheme [s]
+  double min_distance_m = 2.0;  ///< closer to the window's plane than this, the vehicle moves away first [m]
+  double probe_amplitude_m = 0.5;  ///< height of a probe (up, back, down, back) for the window's yaw sign [m]
+  int max_probes = 4;              ///< height probes before the mission is given up
+  double step_m = 0.25;            ///< length of a step of the stepped scheme [m]
+  double step_pause_sec = 0.5;     ///< pause after a step of the stepped scheme [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -105,10 +104,10 @@ struct AlignParams {
   }
 };
 
-/// APPROACH: forward as far as the funnel allows.
+/// APPROACH: flies forward as far as the funnel allows.
 struct ApproachParams {
-  double speed_mps = 1.0;     ///< fastest forward [m/s]
-  double max_wind_mps = 0.6;  ///< fastest wind that is taken off the setpoints; 0: none is [m/s]
+  double speed_mps = 1.0;     ///< maximum forward speed [m/s]
+  double max_wind_mps = 0.6;  ///< largest wind that setpoints compensate; 0: none [m/s]
   double funnel_slope = 1.2;  ///< widening of the funnel for each metre before the commit line [m/m]
   double sigma_factor = 3.0;  ///< standard deviations that must lie within the funnel and the clearance
   double patience_sec = 2.0;  ///< wait at the commit line for the commit criterion before backing off [s]
@@ -123,21 +122,21 @@ struct ApproachParams {
   }
 };
 
-/// COMMIT: through the opening on the last good estimate.
+/// COMMIT: flies through the opening on the last good estimate.
 struct CommitParams {
-  double speed_mps = 0.95;       ///< fastest through the opening [m/s]
-  double exit_distance_m = 1.2;  ///< distance behind the window's plane at which it stops [m]
-  double view_margin_m = 0.2;    ///< distance of the commit line before the window leaves the view [m]
-  double max_blind_sec = 6.0;  ///< without an image of the window for longer than this in front of its plane,
-                               ///< it turns back [s]
-  std::string glass = "possible";  ///< excluded: somebody has made sure that there is none in the window;
-                                   ///< possible: ~confirm_opening is asked for before each COMMIT
-  std::string unverified_opening = "ask";  ///< policy for an opening that was not seen to be open; one that
-                                           ///< was seen to be closed is never flown at
-  double ask_sec = 30.0;                   ///< wait at the commit line for the operator's answer [s]
-  double look_sec = 8.0;                   ///< wait at the commit line for the opening to be verified [s]
-  double look_aside_m = 0.25;  ///< sideways motion for parallax while the opening is verified; at most the
-                               ///< clearance [m]
+  double speed_mps = 0.95;       ///< maximum speed through the opening [m/s]
+  double exit_distance_m = 1.2;  ///< distance behind the window's plane at which the vehicle stops [m]
+  double view_margin_m = 0.2;    ///< distance of the commit line from where the window leaves the view [m]
+  double max_blind_sec = 6.0;    ///< longest time without an image of the window in front of its plane; then
+                                 ///< the vehicle turns back [s]
+  std::string glass = "possible";  ///< excluded: the operator has made sure that the window has no glass;
+                                   ///< possible: each COMMIT requires ~confirm_opening
+  std::string unverified_opening = "ask";  ///< policy for an opening not shown to be open; never fly at a
+                                           ///< closed one
+  double ask_sec = 30.0;                   ///< longest wait at the commit line for the operator's answer [s]
+  double look_sec = 8.0;       ///< longest wait at the commit line for the opening to be verified [s]
+  double look_aside_m = 0.25;  ///< sideways motion for parallax to verify the opening; at most the clearance
+                               ///< [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -153,11 +152,11 @@ struct CommitParams {
   }
 };
 
-/// BACK_OFF: away along the last trusted normal.
+/// BACK_OFF: flies away along the last trusted normal.
 struct BackOffParams {
-  double speed_mps = 0.5;   ///< fastest away from the window [m/s]
-  double distance_m = 2.5;  ///< distance to the window's plane from which it can be seen again [m]
-  int max_retries = 5;      ///< times of backing off before the mission is given up
+  double speed_mps = 0.5;   ///< maximum speed away from the window [m/s]
+  double distance_m = 2.5;  ///< distance to the window's plane from which the window can be seen again [m]
+  int max_retries = 5;      ///< number of back-offs before the mission is given up
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -167,12 +166,11 @@ struct BackOffParams {
   }
 };
 
-/// HOLD, and wherever else the vehicle is to stay: zero velocity, then keeping the place.
+/// HOLD and every other stop: zero velocity, then position hold.
 struct HoldParams {
-  double speed_mps = 0.6;     ///< fastest back to the place that is kept; 0: it does not go back [m/s]
-  double leash_m = 2.0;       ///< further from its place than this, somebody has moved the vehicle: it keeps
-                              ///< another place [m]
-  double patience_sec = 1.0;  ///< wait for the window in HOLD before backing off [s]
+  double speed_mps = 0.6;  ///< maximum speed back to the held position; 0: the vehicle does not return [m/s]
+  double leash_m = 2.0;    ///< displaced further than this, the vehicle holds its new position [m]
+  double patience_sec = 1.0;  ///< longest wait for the window in HOLD before backing off [s]
   double timeout_sec = 8.0;   ///< longest HOLD before the mission is given up [s]
 
   template <typename Self, typename Visitor>
@@ -192,8 +190,8 @@ struct TimeoutParams {
   double commit_sec = 15.0;    ///< longest COMMIT [s]
   double back_off_sec = 20.0;  ///< longest BACK_OFF [s]
   double total_sec = 180.0;    ///< longest mission [s]
-  double stream_sec = 3.0;  ///< zero setpoints for this long after an abort, then none: the autopilot's own
-                            ///< failsafe acts [s]
+  double stream_sec = 3.0;  ///< zero setpoints are sent for this long after an abort, then none, so that the
+                            ///< autopilot's failsafe acts [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -208,7 +206,7 @@ struct TimeoutParams {
 };
 
 struct NavigatorParams {
-  std::string scheme = "continuous";  ///< stepped: the paper's small steps with pauses, as a yardstick
+  std::string scheme = "continuous";  ///< stepped: the paper's small steps with pauses, for comparison
   InputParams input;
   VehicleParams vehicle;  // not in `visit`: it has a file of its own, config/vehicle.yaml
   LimitParams limits;

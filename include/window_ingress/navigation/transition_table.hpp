@@ -1,5 +1,5 @@
-/// The mission's state machine as data: enum, events, rows. No guards, no times, no strings in here: those
-/// who raise an event have reasons for it, the table only says where it leads.
+/// The mission's state machine as data: states, events, transitions. No guards, no times, no strings: whoever
+/// raises an event checks its conditions, the table only says where it leads.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@ enum class State { kIdle, kSearch, kAlign, kApproach, kCommit, kPassed, kBackOff
 inline constexpr std::size_t kStateCount = 9;
 
 enum class Event {
-  kStart,          ///< the operator asks for the flight and nothing speaks against it
+  kStart,          ///< the operator asks for the flight and all start conditions hold
   kWindowFound,    ///< the target was seen often enough
   kAligned,        ///< normal trusted and the vehicle within the funnel
   kMisaligned,     ///< out of the funnel, or the normal no longer trusted
   kCommitReached,  ///< the window is about to leave the view and the commit criterion holds
-  kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
+  kContractUnmet,  ///< close to the window, and the predicted miss exceeds the clearance
   kCrossed,        ///< behind the window, standing still
-  kOtherWindow,    ///< the way flown has shown that it is not the window looked for, or that it is closed
-  kWindowLost,     ///< not seen for long, its normal is known
+  kOtherWindow,    ///< the flight has shown that this is another window, or that it is closed
+  kWindowLost,     ///< not seen for long, but its normal is known
   kBackedOff,      ///< far enough away, the window still not in view
   kReacquired,     ///< seen again
   kResumed,        ///< inputs are back during a commit whose criterion still holds
@@ -105,13 +105,13 @@ constexpr std::optional<State> next(State state, Event event) {
 /// The mission is over; only a reset leads on.
 constexpr bool isEnd(State state) { return state == State::kPassed || state == State::kAborted; }
 
-/// The vehicle may be given a velocity that leads somewhere.
+/// The vehicle may be commanded to move to another place.
 constexpr bool isMoving(State state) {
   return state == State::kSearch || state == State::kAlign || state == State::kApproach ||
          state == State::kCommit || state == State::kBackOff;
 }
 
-/// The vehicle may be given a velocity, be it only to stay where it is.
+/// The vehicle may be given a velocity, even if only to hold its position.
 constexpr bool mayHaveVelocity(State state) {
   return isMoving(state) || state == State::kHold || state == State::kPassed;
 }

@@ -1,4 +1,4 @@
-/// What the vehicle is (config/vehicle.yaml).
+/// Properties of the vehicle (config/vehicle.yaml).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace window_ingress::navigation {
 
-/// Names of frames that a message must carry.
+/// Frame names that messages must carry.
 struct FrameNames {
   std::string odom = "odom";       ///< frame_id of the odometry
   std::string base = "base_link";  ///< frame of the vehicle's body: child_frame_id of the odometry
@@ -31,31 +31,29 @@ struct StampLimits {
   }
 };
 
-/// The vehicle's body, camera, odometry and manners. Said once, for all who need it.
+/// Body, camera, odometry and response of the vehicle; one copy for all nodes.
 struct VehicleParams {
   double half_length_m = 0.25;  ///< half the body's length, forward, propellers included [m]
   double half_width_m = 0.25;   ///< half the body's width, sideways, propellers included [m]
   double half_height_m = 0.12;  ///< half the body's height, propellers and legs included [m]
-  double margin_m = 0.05;       ///< room kept on each side between body and opening, beyond all errors [m]
-  double camera_forward_m =
-      0.1;  ///< distance of the camera ahead of the body's centre; where tf says it, tf counts [m]
-  double horizontal_fov_rad = 1.39;  ///< camera's horizontal field of view; where camera_info says it, that
-                                     ///< counts [rad]
-  double vertical_fov_rad = 1.12;    ///< camera's vertical field of view; where camera_info says it, that
-                                     ///< counts [rad]
-  double pixel_rad = 0.0018;    ///< angle that a pixel in the image's middle covers, 1 / focal length; where
-                                ///< camera_info says it, that counts [rad]
-  double exposure_sec = 0.004;  ///< longest exposure of an image; the search turns so slowly that it does
-                                ///< not blur [s]
-  bool image_is_rectified = false;  ///< images are rectified: P of camera_info counts, not K and D
-  double response_sec = 0.3;  ///< time from a setpoint to the velocity following it, latency included [s]
+  double margin_m = 0.05;  ///< extra distance on each side between body and opening, on top of all errors [m]
+  double camera_forward_m = 0.1;  ///< distance of the camera ahead of the body's centre; tf overrides it [m]
+  double horizontal_fov_rad = 1.39;  ///< horizontal field of view of the camera; camera_info overrides it
+                                     ///< [rad]
+  double vertical_fov_rad = 1.12;    ///< vertical field of view of the camera; camera_info overrides it [rad]
+  double pixel_rad = 0.0018;        ///< angle of one pixel at the image centre, 1 / focal length; camera_info
+                                    ///< overrides it [rad]
+  double exposure_sec = 0.004;      ///< longest exposure of an image; limits the yaw rate of the search
+                                    ///< (blur) [s]
+  bool image_is_rectified = false;  ///< images are rectified: P of camera_info is used, not K and D
+  double response_sec = 0.3;  ///< time from a setpoint until the velocity follows it, latency included [s]
   double braking_mps2 = 1.2;  ///< deceleration that can be relied upon [m/s^2]
   double odom_drift_m_per_sqrt_sec = 0.01;  ///< odometry's random walk of position over time [m/sqrt(s)]
   FrameNames frames;
   StampLimits stamps;
-  std::optional<double> climb_response_sec;  ///< up and down; no parameter, measured in flight
+  std::optional<double> climb_response_sec;  ///< up and down; measured in flight, no parameter
 
-  /// The time to answer of each axis: forward, sideways, up.
+  /// Response time of each axis: forward, sideways, up [s].
   Eigen::Vector3d responsesSec() const {
     return {response_sec, response_sec, climb_response_sec.value_or(response_sec)};
   }
