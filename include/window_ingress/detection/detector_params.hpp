@@ -3,10 +3,10 @@
 namespace window_ingress::detection {
 
 struct PreprocessParams {
-  int search_side_px =
-      480;  ///< the search runs on the first pyramid level whose longer side is no longer [px]
-  double blur_sigma_px = 0.4;  ///< Gaussian against noise, on the search level; 0: none [px]
-  bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
+  int search_side_px = 480;    ///< the search runs on the first pyramid level that is no longer than this
+                               ///< [px]
+  double blur_sigma_px = 0.4;  ///< sigma of the Gaussian blur on the search level; 0: none [px]
+  bool equalise = false;       ///< equalise the histogram of the search level with limited contrast
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -17,8 +17,8 @@ struct PreprocessParams {
 };
 
 struct EdgeMapParams {
-  double high_quantile = 0.85;  ///< this part of all pixels has a smaller gradient than the upper threshold
-  double low_ratio = 0.5;       ///< lower threshold over upper one
+  double high_quantile = 0.85;  ///< part of all pixels whose gradient is below the upper threshold
+  double low_ratio = 0.5;       ///< lower threshold over upper threshold
   double floor = 6.0;           ///< the upper threshold is never below this [grey levels a pixel]
   double ceiling = 30.0;        ///< the upper threshold is never above this [grey levels a pixel]
 
@@ -32,8 +32,8 @@ struct EdgeMapParams {
 };
 
 struct HoughSegmentsParams {
-  double min_length = 0.03;   ///< of a segment, in longer sides of the level
-  double min_density = 0.55;  ///< edge pixels on a segment over its length
+  double min_length = 0.03;   ///< least length of a segment, in longer sides of the search level
+  double min_density = 0.55;  ///< least number of edge pixels on a segment, over its length
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -43,7 +43,7 @@ struct HoughSegmentsParams {
 };
 
 struct ClosingParams {
-  double radius = 0.003;  ///< of the dilation, in longer sides of the level; at least one pixel
+  double radius = 0.003;  ///< radius of the dilation, in longer sides of the search level; at least one pixel
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -52,7 +52,7 @@ struct ClosingParams {
 };
 
 struct ContourPolygonsParams {
-  double epsilon = 0.025;  ///< tolerance of the polygon, in perimeters of its outline
+  double epsilon = 0.025;  ///< tolerance of the polygon approximation, in perimeters of the outline
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -61,8 +61,8 @@ struct ContourPolygonsParams {
 };
 
 struct SegmentQuadsParams {
-  double extension = 0.4;     ///< a segment may end this far before or behind a corner, in its own lengths
-  double min_coverage = 0.4;  ///< part of each side that its segment covers
+  double extension = 0.4;     ///< largest gap between a segment's end and a corner, in segment lengths
+  double min_coverage = 0.4;  ///< least part of each side that its segment covers
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -72,13 +72,13 @@ struct SegmentQuadsParams {
 };
 
 struct CandidateGatesParams {
-  double min_area = 0.003;         ///< of the quadrilateral, in areas of the image (the farthest window)
-  double max_area = 0.90;          ///< of the quadrilateral, in areas of the image (the nearest window)
+  double min_area = 0.003;         ///< least area of a candidate, in areas of the image (farthest window)
+  double max_area = 0.90;          ///< largest area of a candidate, in areas of the image (nearest window)
   double min_aspect = 0.2;         ///< width over height, as seen
   double max_aspect = 3.5;         ///< width over height, as seen
-  double max_angle_rad = 0.85;     ///< of a corner away from 90 degrees (the largest yaw) [rad]
-  double min_side_support = 0.45;  ///< of the weakest side: part that runs along straight edges
-  double min_contrast = 2.0;       ///< gradient of the weakest side [grey levels a pixel]
+  double max_angle_rad = 0.85;     ///< largest deviation of a corner from 90 degrees (the largest yaw) [rad]
+  double min_side_support = 0.45;  ///< least part of the weakest side that runs along straight edges
+  double min_contrast = 2.0;       ///< least gradient of the weakest side [grey levels a pixel]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -93,10 +93,8 @@ struct CandidateGatesParams {
 };
 
 struct AppearanceParams {
-  double max_distance =
-      0.5;  ///< Bhattacharyya distance beyond which a candidate is not the target, at most; 0 to 1
-  double min_distance =
-      0.25;  ///< that limit is never below this, however alike the rest of the reference image looks; 0 to 1
+  double max_distance = 0.5;   ///< upper bound of the limit on the target's Bhattacharyya distance; 0 to 1
+  double min_distance = 0.25;  ///< lower bound of the limit on the target's Bhattacharyya distance; 0 to 1
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -106,13 +104,12 @@ struct AppearanceParams {
 };
 
 struct TrackParams {
-  double max_gap_sec = 0.5;      ///< images further apart start anew [s]
-  double reacquire_sec = 0.6;    ///< a lost window found again in its place within this time is the same [s]
-  double reacquire_gate = 0.35;  ///< furthest from its place to be the same [window sides]
-  int appearance_every = 15;     ///< frames between comparisons with the reference
-  int confirmations =
-      3;  ///< searches that must agree with a new track, or name another place, to be believed
-  double survey_sec = 1.0;  ///< between looks for all windows in view, while one is followed; 0: none [s]
+  double max_gap_sec = 0.5;      ///< tracking starts anew when images are further apart than this [s]
+  double reacquire_sec = 0.6;    ///< longest loss after which a window keeps its number [s]
+  double reacquire_gate = 0.35;  ///< largest move after which a lost window keeps its number [window sides]
+  int appearance_every = 15;     ///< frames between two comparisons of a tracked window with the reference
+  int confirmations = 3;  ///< searches that confirm a new track, or that end it by agreeing on another place
+  double survey_sec = 1.0;  ///< time between searches for all windows while one is tracked; 0: none [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -136,11 +133,10 @@ struct DetectorParams {
   CandidateGatesParams gates;
   AppearanceParams appearance;
   TrackParams track;
-  int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
-  double min_score = 0.4;   ///< below this there is no detection
-  double min_score_reference = 0.5;  ///< least score of what was compared with a reference
-  double min_correlation =
-      0.58;  ///< least correlation of what lies round the target with what the reference shows there
+  int max_candidates = 40;  ///< number of best candidates compared with each other and with the reference
+  double min_score = 0.4;   ///< least score of a detection
+  double min_score_reference = 0.5;  ///< least score of a detection that was compared with a reference
+  double min_correlation = 0.58;     ///< least correlation of the target's surroundings with the reference
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

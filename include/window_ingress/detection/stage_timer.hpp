@@ -4,9 +4,9 @@
 
 namespace window_ingress::detection {
 
-/// What the time of one image went into, in the order of the pipeline.
+/// Stages that the processing time of one image is divided into, in the order of the pipeline.
 enum class Stage {
-  kTrack,       ///< following a window that is known
+  kTrack,       ///< tracking a known window
   kPreprocess,  ///< pyramid, blur, equalisation
   kEdges,       ///< gradients and edge pixels
   kLines,       ///< runs and straight segments
@@ -19,7 +19,7 @@ constexpr int kStages = static_cast<int>(Stage::kBorders) + 1;
 
 const char* toString(Stage stage);
 
-/// Adds up the time of each stage of one image. The detector has no clock of its own: who wants times gives
+/// Adds up the time of each stage of one image. The detector has no clock: a caller who wants times provides
 /// one.
 class StageTimer {
  public:
@@ -37,7 +37,7 @@ class StageTimer {
   std::array<double, kStages> sec_{};
 };
 
-/// For those who may have been given none.
+/// For callers whose timer may be null.
 inline void done(StageTimer* watch, Stage stage) {
   if (watch) watch->done(stage);
 }

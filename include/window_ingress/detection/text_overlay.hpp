@@ -8,7 +8,7 @@
 
 namespace window_ingress::detection {
 
-/// Writes on images, in a size that follows theirs, and keeps texts off each other.
+/// Writes texts on images without overlap, in a size proportional to the image.
 class TextOverlay {
  public:
   /// \param canvas CV_8UC3; must outlive this object
@@ -19,18 +19,18 @@ class TextOverlay {
     cv::Scalar colour;
   };
 
-  /// A dark box with these lines, white, each behind a patch of its colour, in a corner of the canvas that is
-  /// free, else in the upper left one; as many as fit into three fifths of its height. The footer, if there
-  /// is to be one, comes first.
+  /// A dark box with these lines in white, each after a patch of its colour, in a free corner of the canvas
+  /// or else the upper left one. It holds as many lines as fit into three fifths of the height. Call `footer`
+  /// first if there is one.
   void box(const std::vector<Line>& lines);
 
   /// One line along the lower border; its end is cut off if it is too long.
   void footer(const Line& line);
 
-  /// A text beside a point if there is room, inside the canvas and off all other texts. \return false if not
+  /// A text next to a point, if there is room on the canvas beside all other texts. \return false if not
   bool label(const Line& line, const cv::Point& at);
 
-  /// No label will be put there, unless it is most of the canvas.
+  /// Keeps labels out of an area, unless the area is most of the canvas.
   void keepFree(const cv::Rect& area);
 
  private:
@@ -46,7 +46,7 @@ class TextOverlay {
   std::vector<cv::Rect> taken_;
 };
 
-/// Sides of a quadrilateral, antialiased; nothing if it is not finite or far outside any image.
+/// Draws a quadrilateral, antialiased; nothing if it is not finite or far outside any image.
 void drawQuad(cv::Mat& canvas, const geometry::Quadrilateral& quad, const cv::Scalar& colour, int thickness);
 
 }  // namespace window_ingress::detection

@@ -1,5 +1,5 @@
-/// One list of fields per parameter struct, from which everything else is derived: range checks, reading from
-/// yaml and from the ROS parameter server, dynamic_reconfigure, trackbars, the tables of the documentation.
+/// One list of fields per parameter struct serves all uses: range checks, reading from yaml and from the ROS
+/// parameter server, dynamic_reconfigure, trackbars and the tables of the documentation.
 ///
 /// A parameter struct lists its fields once:
 ///
@@ -13,7 +13,7 @@
 ///
 /// `field(name, value, minimum, maximum)` for double and int, `field(name, value)` for bool, std::string and
 /// lists of numbers, `field.choice(name, text, {allowed, ...})` for one of a few words, `field.group(name,
-/// params)` for a struct within, `field.list(name, items)` for a std::vector of structs (range checks and
+/// params)` for a nested struct, `field.list(name, items)` for a std::vector of structs (range checks and
 /// scenario files only). Names of nested fields are joined with '/', as ROS does.
 #pragma once
 
@@ -25,20 +25,20 @@ namespace window_ingress::parameters {
 
 /// One field of a parameter struct.
 struct Field {
-  std::string name;  ///< whole: "edges/floor"
+  std::string name;  ///< full path: "edges/floor"
   std::variant<double*, int*, bool*, std::string*, std::vector<double>*>
-      value;                              ///< of the struct that was listed
-  double minimum = 0.0, maximum = 1.0;    ///< of a number, both included
-  std::vector<std::string> allowed = {};  ///< of a text that is one of a few words
+      value;                              ///< points into the listed struct
+  double minimum = 0.0, maximum = 1.0;    ///< limits of a number, both included
+  std::vector<std::string> allowed = {};  ///< words that a text may be; empty: any
 
   bool isWhole() const { return std::holds_alternative<int*>(value); }
   bool isSwitch() const { return std::holds_alternative<bool*>(value); }
-  /// A number; a switch is 0 or 1; 0 for all else.
+  /// The number; 0 or 1 for a switch; 0 for any other kind.
   double get() const;
-  void set(double wanted) const;  ///< the nearest value that the field can hold; NaN changes nothing
+  void set(double wanted) const;  ///< sets the nearest allowed value; NaN changes nothing
 };
 
-/// Visitor that lists them.
+/// Visitor that lists the fields.
 class FieldLister {
  public:
   template <typename Number>
@@ -80,12 +80,12 @@ std::vector<Field> fieldsOf(Params& params) {
 /// The field of this name, or null.
 const Field* find(const std::vector<Field>& fields, const std::string& name);
 
-/// What kind of value it has, for people: "a number", "true or false".
+/// Kind of its value, for people: "a number", "true or false".
 const char* kindOf(const Field& field);
 
-/// Why the field cannot have the value that it has: "NAME = VALUE is not within ..". Empty if it can.
+/// Why the field's value is invalid: "NAME = VALUE is not within ..". Empty if it is valid.
 std::string faultOf(const Field& field);
-std::vector<std::string> faultsOf(const std::vector<Field>& fields);  ///< of all fields that have one
+std::vector<std::string> faultsOf(const std::vector<Field>& fields);  ///< of all invalid fields
 
 /// All fields of `params` that are out of range, one text each; empty if there are none.
 template <typename Params>
@@ -96,18 +96,18 @@ std::vector<std::string> outOfRange(Params params) {
 /// The texts as one line, for an error.
 std::string joined(const std::vector<std::string>& texts, const char* between = "; ");
 
-/// The value as yaml has it: true or false, whole numbers without a point, others so that they read back the
-/// same.
+/// The value in yaml: true or false, integers without a point, other numbers so that they read back the same.
 std::string toText(const Field& field);
 
 /// Sets a number or switch from "name=value". \throws InputError, one line: unknown name, no number, out of
 /// range
 void assign(const std::vector<Field>& fields, const std::string& assignment);
 
-/// Those fields whose value differs from that of the same name in `before`.
+/// The fields whose values differ from those of the same name in `before`.
 std::vector<Field> changed(const std::vector<Field>& fields, const std::vector<Field>& before);
 
-/// As nested yaml mappings below `path` ("window_detector/detector"), with an empty mapping for no fields.
+/// The fields as nested yaml mappings below `path` ("window_detector/detector"); an empty mapping for no
+/// fields.
 std::string toYaml(const std::vector<Field>& fields, const std::string& path);
 
 }  // namespace window_ingress::parameters

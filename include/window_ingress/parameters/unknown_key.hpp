@@ -1,4 +1,4 @@
-/// The keys that somebody reads, and what was meant by one that nobody does.
+/// Known keys, and suggestions for an unknown one.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace window_ingress::parameters {
 
-/// The paths of all fields, each group before what lies in it: "vehicle", "vehicle/half_width_m".
+/// The paths of all fields, each group before its contents: "vehicle", "vehicle/half_width_m".
 std::vector<std::string> keysOf(const std::vector<Field>& fields);
 
 /// "speeed_mps: unknown key; did you mean 'speed_mps'?"
-/// \param shown where it stands, for people
+/// \param shown place of the key, for people
 /// \param path that nobody reads
 /// \param known all that somebody reads
 std::string unknownKey(const std::string& shown, const std::string& path,
                        const std::vector<std::string>& known);
 
-/// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or where
-/// nothing is like it the few keys that could stand there, or nothing.
+/// Text after "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?". If no known key is similar, the
+/// text lists the keys that could stand there, if they are few; otherwise it is empty.
 /// \param path that nobody reads
 /// \param known all that somebody reads
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known);

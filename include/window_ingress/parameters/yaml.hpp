@@ -1,4 +1,4 @@
-/// Parameter structs from yaml files.
+/// Reads parameter structs from yaml files.
 #pragma once
 
 #include <set>
@@ -11,8 +11,8 @@
 namespace window_ingress::parameters {
 
 /// Fills the fields from a yaml file. Missing keys keep their defaults.
-/// \return paths of what the file says: "group/field"
-/// \throws InputError with a line for each fault, "file:line: key: what is wrong", in the order of the file:
+/// \return paths of the keys in the file: "group/field"
+/// \throws InputError with one line per fault, "file:line: key: what is wrong", in the order of the file:
 /// unknown keys, wrong types, values out of range
 std::set<std::string> readYamlFile(const std::string& file, const std::vector<Field>& fields);
 

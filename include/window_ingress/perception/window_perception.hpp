@@ -8,25 +8,24 @@
 
 namespace window_ingress::perception {
 
-/// Where the target was expected as of one image says nothing of another one so much later [s].
+/// An expected place of the target is valid for images up to this much later [s].
 constexpr double kExpectationLastsSec = 0.5;
 
 /// Image to window observation: the target is searched or tracked, then the texture within its opening is
-/// followed. Node, replay and closed loop all see through this.
+/// tracked. Node, replay and closed loop all use this class.
 ///
-/// Deterministic: the same images and the same knowledge beside them give the same observations. Keeps its
-/// memory from image to image. One object a thread.
+/// Deterministic: the same inputs give the same observations. Reuses its memory. One object per thread.
 class WindowPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
   WindowPerception(const detection::DetectorParams& detector, const openness::InteriorKltParams& interior);
 
-  /// The target in this image, its interior included; nothing if it is not seen, `trace()` says why.
+  /// The target in this image, its interior included; nothing if it is not seen, and `trace()` then says why.
   const std::optional<detection::WindowObservation>& update(const detection::TrackInput& frame);
 
-  /// As the last update returned it.
+  /// The result of the last update.
   const std::optional<detection::WindowObservation>& window() const { return window_; }
-  /// All windows of the last image, as far as it was searched.
+  /// All windows of the last image, if it was searched; otherwise the target only.
   const std::vector<detection::SeenWindow>& windows() const { return tracker_.windows(); }
   const detection::DetectionTrace& trace() const { return tracker_.trace(); }
 

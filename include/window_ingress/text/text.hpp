@@ -6,18 +6,17 @@
 
 namespace window_ingress {
 
-/// What somebody gave cannot be used: an option, a parameter, a file. `what()` has a line for each fault,
-/// which says what is wrong, where, and what to do. Tools and nodes end with exit code 2.
+/// An option, a parameter or a file of the user cannot be used. `what()` has one line per fault: what is
+/// wrong, where, and what to do. Tools and nodes end with exit code 2.
 class InputError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// What printf would write.
+/// Formats a text as printf does.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 
-/// The text with each number, its sign included, as one #: what remains the same while the same thing is the
-/// matter.
+/// The text with each number, sign included, replaced by #: texts with the same cause become equal.
 std::string withoutNumbers(const std::string& text);
 
 }  // namespace window_ingress
