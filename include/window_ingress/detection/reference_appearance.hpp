@@ -38,7 +38,7 @@ class ReferenceAppearance {
   /// outside
   ReferenceAppearance(const cv::Mat& image, const geometry::Quadrilateral& opening);
 
-  /// The whole image shows the target with its frame, which is a twentieth of the image wide. The place of
+  /// The whole image counts as the target with its frame, assumed a twentieth of the image wide. The place of
   /// the opening is then a guess, see `openingIsKnown`.
   explicit ReferenceAppearance(const cv::Mat& image);
 

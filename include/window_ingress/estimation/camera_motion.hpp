@@ -4,7 +4,7 @@
 
 namespace window_ingress::estimation {
 
-/// How a camera moves, odom axes: what a stamp that is off displaces it by.
+/// Motion of a camera in odom axes; a wrong stamp displaces the camera along it.
 struct CameraMotion {
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_radps = Eigen::Vector3d::Zero();

@@ -5,28 +5,29 @@
 
 namespace window_ingress::estimation {
 
-/// How well the images of late agree with what the filter expected of them.
+/// How well recent images agree with the filter's predictions.
 struct Consistency {
-  int images = 0;  ///< that the figures rest on
-  /// Mean normalised innovation squared a degree of freedom: 1 is expected where all noise is white, less
-  /// where errors last, more where they are larger than stated.
+  int images = 0;  ///< number of images behind the figures
+  /// Mean normalised innovation squared per degree of freedom: 1 is expected if all noise is white, less if
+  /// errors are systematic, more if they are larger than stated.
   double mean_nis = 0.0;
-  bool consistent = true;  ///< mean_nis does not exceed its limit, or too few images are there to say
-  int refused = 0;         ///< images beside those, that contradicted what the filter expected
-  /// More than two of five are refused: the filter follows what is not there. False where too few images are
-  /// there to say. With window, camera and odometry as they are said to be, one in ten at most is refused.
+  bool consistent = true;  ///< mean_nis is within its limit, or there are too few images to tell
+  int refused = 0;         ///< further images, refused because they contradicted the prediction
+  /// More than two of five images are refused: the filter tracks something that is not there. False if there
+  /// are too few images to tell. If window, camera and odometry are as configured, at most one in ten is
+  /// refused.
   bool contradicted = false;
 };
 
 /// Normalised innovation squared (NIS) over a sliding window of images.
 ///
-/// Errors of neighbouring images are alike (the systematic one lasts), so the mean of a window scatters as
-/// one image in the worst case. The limit is therefore that of a single image: 3.3 a degree of freedom is
-/// the 99.9 % point of chi squared with eight of them.
+/// Errors of neighbouring images are similar (the systematic part lasts), so in the worst case the mean
+/// scatters like a single image. The limit is therefore that of a single image: 3.3 per degree of freedom is
+/// the 99.9 % point of chi squared with eight degrees of freedom.
 class ConsistencyMonitor {
  public:
-  static constexpr int kImages = 50;          ///< of the window
-  static constexpr double kMaxMeanNis = 3.3;  ///< a degree of freedom
+  static constexpr int kImages = 50;          ///< length of the window
+  static constexpr double kMaxMeanNis = 3.3;  ///< per degree of freedom
   explicit ConsistencyMonitor(int images = kImages) : images_(static_cast<std::size_t>(images)) {}
 
   void add(double squares, int degrees_of_freedom);

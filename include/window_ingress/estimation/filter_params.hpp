@@ -4,37 +4,36 @@
 
 namespace window_ingress::estimation {
 
-/// What the filter of the window's pose assumes of odometry, camera mounting and target.
+/// Assumptions of the window filter about odometry, camera mounting and target.
 struct FilterParams {
   double odom_position_sigma_m = 0.01;     ///< noise of each camera position, latency included [m]
   double odom_attitude_sigma_rad = 0.004;  ///< noise of each camera attitude, latency included [rad]
-  double attitude_bias_sigma_rad = 0.02;  ///< lasting error of roll and pitch, camera mounting included [rad]
-  double mounting_yaw_sigma_rad =
-      0.03;  ///< lasting error of the camera's yaw on the vehicle, and of odometry's heading beside its
-             ///< positions: an autopilot's compass is 3 to 5 degrees off; at most 0.001: the way flown is
-             ///< not asked whether mounting and opening's size are as said [rad]
-  double drift_m_per_sqrt_m = 0.03;  ///< odometry's random walk of position over distance flown [m/sqrt(m)]
-  double drift_rad_per_sqrt_sec = 0.002;  ///< odometry's random walk of heading over time [rad/sqrt(s)]
-  double target_speed_mps =
-      0.0;  ///< speed of a moving window, root mean square per axis; 0: it stands still [m/s]
-  double target_speed_time_sec = 2.0;  ///< time over which a moving window keeps its velocity: half the
-                                       ///< period of one that swings [s]
+  double attitude_bias_sigma_rad = 0.02;   ///< systematic error of roll and pitch, mounting included [rad]
+  double mounting_yaw_sigma_rad = 0.03;    ///< systematic error of the camera's yaw, and of odometry's
+                                           ///< heading against its positions (a compass is 3 to 5 degrees
+                                           ///< off); up to 0.001: mounting and size are not verified in
+                                           ///< flight [rad]
+  double drift_m_per_sqrt_m = 0.03;  ///< random walk of odometry's position over distance flown [m/sqrt(m)]
+  double drift_rad_per_sqrt_sec = 0.002;  ///< random walk of odometry's heading over time [rad/sqrt(s)]
+  double target_speed_mps = 0.0;  ///< speed of a moving window, rms per axis; 0: the window is fixed [m/s]
+  double target_speed_time_sec = 2.0;  ///< time a moving window keeps its velocity: half the period of a
+                                       ///< swing [s]
   double nis_gate = 35.0;  ///< images with a larger normalised innovation squared (8 degrees of freedom) are
-                           ///< outliers and change nothing
-  double max_age_sec = 10.0;  ///< without images for longer than this the filter has no state [s]
+                           ///< outliers and are ignored
+  double max_age_sec = 10.0;  ///< the filter's state expires this long after the last image [s]
 
-  // Not in `visit`: said elsewhere, or opened by the check of the mounting.
+  // Not in `visit`: set elsewhere, or changed by the check of the mounting.
   double systematic_sigma_px = 0.15;     // `PoseParams::systematic_sigma_px`
   double drift_m_per_sqrt_sec = 0.01;    // config/vehicle.yaml
-  double attitude_bias_time_sec = 20.0;  // how long the lasting error of roll and pitch lasts
-  bool yaw_bias_lasts = true;            // what was found of it outlives a new start
-  double trusted_yaw_sigma_rad = 0.06;   // largest of a trusted hypothesis
-  double heading_bias_sigma_rad = 1e-6;  // of odometry beside its positions, if not learned with the yaw
+  double attitude_bias_time_sec = 20.0;  // correlation time of the systematic error of roll and pitch
+  bool yaw_bias_lasts = true;            // the estimated yaw error survives a restart
+  double trusted_yaw_sigma_rad = 0.06;   // upper limit for a trusted hypothesis
+  double heading_bias_sigma_rad = 1e-6;  // of odometry against its positions, if not learned with the yaw
   int outliers_until_restart = 5;        // in a row
 
-  static constexpr double kKnownSizeSigma = 0.003;  ///< relative error of a size that is called known
+  static constexpr double kKnownSizeSigma = 0.003;  ///< relative error of a size that counts as known
   static constexpr double kSystematicRenewalM =
-      0.5;  ///< a corner's systematic error is a new one this far away
+      0.5;  ///< a corner's systematic error is independent at this distance
 
   MotionModel targetMotion() const { return {target_speed_mps, target_speed_time_sec}; }
 

@@ -4,10 +4,10 @@
 
 namespace window_ingress::estimation {
 
-/// What the first metres have shown of the frames.
+/// What the first metres of flight have shown about the frames.
 struct FramesVerdict {
   enum State {
-    kOpen,  ///< not seen enough
+    kOpen,  ///< not enough seen
     kGood,
     kWrong
   };

@@ -4,7 +4,7 @@
 
 namespace window_ingress::estimation {
 
-/// Direction of "up" in the camera at the exposure, a soft prior: it never chooses between the two planar
+/// Direction of "up" in the camera at the exposure: a soft prior that never chooses between the two
 /// solutions.
 struct GravityPrior {
   Eigen::Vector3d up_camera = Eigen::Vector3d(0, -1, 0);  ///< unit vector, optical frame

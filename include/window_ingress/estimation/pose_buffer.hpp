@@ -8,12 +8,12 @@
 namespace window_ingress::estimation {
 
 /// Recent poses by time, interpolated on request. Bounded. A sample half a second older than the newest one
-/// is a jump back in time and clears the buffer; one that is less older comes late and is left out.
+/// is a jump back in time and clears the buffer; a less old sample is late and is left out.
 class PoseBuffer {
  public:
   static constexpr double kLateSec = 0.5;
 
-  /// \return false and nothing stored if the stamp or the pose is not finite, or the stamp repeats or is late
+  /// \return false, with nothing stored, if stamp or pose is not finite, or the stamp repeats or is late
   bool add(double stamp_sec, const Eigen::Isometry3d& pose);
 
   /// Pose at `stamp_sec`: interpolated, or the nearest sample if the stamp lies outside, or in a gap, and at

@@ -2,18 +2,18 @@
 
 namespace window_ingress::estimation {
 
-/// What is known of the window, and which poses are believed. Sizes are those of the opening's front inner
+/// Known data of the window, and limits for accepted poses. Sizes are those of the opening's front inner
 /// border.
 struct PoseParams {
   double opening_width_m = 1.2;       ///< inner width of the opening [m]
   double opening_height_m = 1.0;      ///< inner height of the opening [m]
-  double scale_sigma = 0.0;           ///< relative standard deviation of width and height together; 0: known
+  double scale_sigma = 0.0;           ///< relative standard deviation of the opening's scale; 0: known
   double aspect_sigma = 0.0;          ///< relative standard deviation of width over height; 0: known
-  double systematic_sigma_px = 0.15;  ///< standard deviation of a corner's error that does not average out
-                                      ///< from one place: lens, sill, blur [px]
-  double max_range_m = 20.0;          ///< poses of windows further away are refused [m]
+  double systematic_sigma_px = 0.15;  ///< standard deviation of a corner's systematic error (lens, sill,
+                                      ///< blur), which does not average out from one place [px]
+  double max_range_m = 20.0;          ///< poses of windows further away than this are refused [m]
 
-  // Not in `visit`: surveys and tests open them.
+  // Not in `visit`: changed by surveys and tests.
   double min_range_m = 0.3;              // [m]
   double max_reprojection_rms_px = 3.0;  // per coordinate [px]
   double max_tilt_rad = 0.7;  // of the window's up against gravity, or against the camera's without it [rad]

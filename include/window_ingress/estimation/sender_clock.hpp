@@ -2,14 +2,14 @@
 
 namespace window_ingress::estimation {
 
-/// Nothing is measured after it has arrived: stamps that are ahead of their arrival come from a clock that is
-/// ahead (PX4's behind MAVROS were seen 84 to 164 ms ahead of their arrival). The most that was seen is taken
-/// off every stamp. It fades slowly, since clocks drift.
+/// Corrects stamps from a clock that is ahead. Nothing is measured after it has arrived, so a stamp ahead of
+/// its arrival shows such a clock (PX4's behind MAVROS were 84 to 164 ms ahead). The largest lead seen is
+/// subtracted from every stamp; it decays slowly, because clocks drift.
 class SenderClock {
  public:
-  /// \return the stamp by the receiver's clock; a stamp or arrival that is not finite changes nothing
+  /// \return the stamp in the receiver's clock; a stamp or arrival that is not finite changes nothing
   double atReceiver(double stamp_sec, double arrival_sec);
-  /// What is taken off: 0 up to `kUsualSec`, which a clock that comes in ticks explains.
+  /// Amount that is subtracted; 0 up to `kUsualSec`, which the ticks of a clock explain.
   double aheadSec() const { return ahead_sec_ > kUsualSec ? ahead_sec_ : 0.0; }
   void clear() { *this = SenderClock(); }
 

@@ -19,25 +19,24 @@ struct TargetEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< odom axes; m, rad
   /// The window's normal is unambiguous. While false, only the bearing of the position may be used.
   bool sign_trusted = false;
-  /// Of a window that does not stand still; pose and motion are those of `pose_stamp_sec`, see `ahead`.
+  /// Motion of a moving window; pose and motion are those at `pose_stamp_sec`, see `ahead`.
   TargetMotion motion;
   double pose_stamp_sec = 0.0;
   int updates = 0;  ///< images that contributed since the window was last acquired
   geometry::OpeningSize opening;
-  /// GO: the vehicle fits; UNKNOWN: the size of the opening is still to be found out.
+  /// GO: the vehicle fits; UNKNOWN: the size of the opening is not known yet.
   Fit fit = Fit::kGo;
-  /// Why nobody should fly towards the window, whatever its pose: it does not fit or that is not known, or
-  /// the camera's mounting or the velocity's frame are not what they are said to be. Empty if there is no
+  /// Why the vehicle must not approach the window, whatever its pose: the vehicle does not fit or this is not
+  /// known, or the camera's mounting or the velocity's frame is not as configured. Empty if there is no
   /// reason.
   std::string approach_forbidden;
-  /// What the way flown has yet to show before anybody flies in; empty if nothing.
+  /// What the flight must still show before the vehicle may fly in; empty if nothing.
   std::string unverified;
-  /// The way flown has shown that it is not the window looked for, but one so many times as large.
+  /// Set if the flight has shown another window than the one looked for: its size over the expected size.
   std::optional<double> other_window;
-  /// Whether it is open, by parallax; UNKNOWN until that is seen.
+  /// Whether the window is open, by parallax; UNKNOWN until that is seen.
   openness::OpennessVerdict openness;
-  std::uint32_t window_id =
-      0;  ///< its number in the memory of all windows; 0: not known to be the target yet
+  std::uint32_t window_id = 0;  ///< number in the memory of all windows; 0: not yet known as the target
 };
 
 }  // namespace window_ingress::estimation

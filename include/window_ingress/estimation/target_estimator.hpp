@@ -24,7 +24,7 @@ namespace window_ingress::estimation {
 struct TargetEstimatorParams {
   openness::OpennessParams openness;
   facade::FacadeParams facade;
-  geometry::OpeningSize needed{0.6, 0.34};  // by the vehicle with its margins; not in `visit`
+  geometry::OpeningSize needed{0.6, 0.34};  // by the vehicle, margins included; not in `visit`
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -33,34 +33,34 @@ struct TargetEstimatorParams {
   }
 };
 
-/// What the detector says of one image, and from where it was taken.
+/// The detector's result for one image, with camera and mounting.
 struct ObservedImage {
   double stamp_sec = 0.0;
   geometry::PinholeCamera camera;
   std::optional<Eigen::Isometry3d> T_base_camera;  ///< without it there is a pose, but nothing for the filter
   std::optional<detection::WindowObservation> window;  ///< the target, if it was seen
-  std::vector<detection::SeenWindow> windows;          ///< all that were
+  std::vector<detection::SeenWindow> windows;          ///< all that were seen
 };
 
-/// What became of the last observation.
+/// Result of the last observation.
 struct TargetUpdate {
   PoseResult pose;
-  std::string why_not;  ///< empty if it contributed to the target
+  std::string why_not;  ///< why it did not contribute to the target; empty if it did
 };
 
 /// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
-/// exposure, then the filter at the position of the exposure. Everything may arrive late; an observation
-/// waits until odometry has caught up with its exposure, at most until the next one comes. A jump of the
-/// odometry, in place or heading, starts anew, but for the size of the opening; a clock that goes back by
-/// more than `PoseBuffer::kLateSec` starts everything anew (less is a sample that comes late, and left out).
+/// exposure, then the filter at the position of the exposure. Inputs may arrive late; an observation waits
+/// until odometry has reached its exposure, at most until the next observation. A jump of the odometry, in
+/// position or heading, starts anew, but keeps the size of the opening. A clock that goes back by more than
+/// `PoseBuffer::kLateSec` resets everything; a smaller step is a late sample, which is ignored.
 ///
-/// All windows seen are remembered (`FacadeMemory`): once the target is known, its neighbours are not taken
-/// for it, however like it they look.
+/// All windows seen are remembered (`FacadeMemory`): once the target is known, its neighbours are not
+/// confused with it, however similar they look.
 ///
-/// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
+/// The configured camera mounting, velocity frame and known size are verified in flight.
 class TargetEstimator {
  public:
-  static constexpr double kMaxPoseGapSec = 0.05;  ///< odometry may end this much before the exposure
+  static constexpr double kMaxPoseGapSec = 0.05;  ///< odometry may end this long before the exposure
 
   /// \throws std::invalid_argument that lists every parameter out of range
   TargetEstimator(const PoseParams& pose, const FilterParams& filter, const TargetEstimatorParams& params);
@@ -68,29 +68,27 @@ class TargetEstimator {
   TargetEstimator(TargetEstimator&&) noexcept;
   TargetEstimator& operator=(TargetEstimator&&) noexcept;
 
-  /// \param velocity_odom_mps if reported: turned to odom axes with the pose's attitude
-  /// \param turn_odom_radps likewise; without both, lateness of the stamps stays unknown
+  /// \param velocity_odom_mps if reported, turned to odom axes with the pose's attitude
+  /// \param turn_odom_radps if reported, in odom axes; without both, late stamps are not accounted for
   void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
                    const std::optional<Eigen::Vector3d>& velocity_odom_mps = std::nullopt,
                    const Eigen::Vector3d& turn_odom_radps = Eigen::Vector3d::Zero());
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
-  /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
+  /// \param T_base_camera mounting of the camera; without it there is a pose, but the filter is not updated
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const std::optional<Eigen::Isometry3d>& T_base_camera);
-  void see(
-      ObservedImage image);  ///< the same with all windows of the image, whether or not one is the target
-  /// An observation that still waits for odometry is processed with what there is.
+  void see(ObservedImage image);  ///< the same with all windows of the image
+  /// Processes an observation that still waits for odometry with what there is.
   void flush();
   void reset();
 
   facade::Answer selectWindow(std::uint32_t id);
   facade::Answer selectWindowNear(const Eigen::Vector3d& point_odom_m);
-  /// What the navigator does: the window it flies at (0: none), those that it gave up, and whether it is to
-  /// get another one in place of the last of them.
+  /// State of the navigator: the window it flies at (0: none), those it gave up, and whether it wants another
+  /// one in place of the last of these.
   void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
   const facade::FacadeMemory& facade() const { return facade_; }
-  /// Where the target must be in an image taken at that time, if that is known and in view (distorted
-  /// pixels).
+  /// Expected place of the target in an image taken at that time, if known and in view (distorted pixels).
   std::optional<geometry::Quadrilateral> expected(double stamp_sec, const geometry::PinholeCamera& camera,
                                                   const Eigen::Isometry3d& T_base_camera) const;
 
@@ -100,19 +98,19 @@ class TargetEstimator {
 
   /// Whether the vehicle fits through the opening, as far as its size is known.
   FitVerdict fit(const FilteredWindow& window) const { return fitVerdict(window.size, params_.needed); }
-  /// Whether it is open, as far as the texture within its border has shown.
+  /// Whether the target is open, as far as the texture within its border has shown.
   const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
   FramesVerdict frames() const;
-  /// The opening's size as measured on the way flown, whatever it is said to be.
+  /// The opening's size as measured in flight, independent of the configured size.
   const std::optional<SizeEstimate>& measuredSize() const;
-  /// By how much the stamps of images and odometry differ, once a turn has shown it.
+  /// Difference between the stamps of images and odometry, once a turn has shown it.
   const std::optional<ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
-  /// Why nobody should fly towards this window; empty if there is no reason.
+  /// Why the vehicle must not approach this window; empty if there is no reason.
   std::string approachForbidden(const FilteredWindow& window) const;
-  /// What the way flown has yet to show before anybody flies in: that the camera is mounted as said. Empty if
-  /// it has.
+  /// What the flight must still show before the vehicle may fly in: that the camera is mounted as configured.
+  /// Empty if shown.
   std::string unverified() const;
-  /// The window seen is not the one looked for, but so many times as large.
+  /// Size of the window seen over the size looked for, if it is another window.
   std::optional<double> otherWindow() const;
 
  private:
@@ -139,20 +137,20 @@ class TargetEstimator {
   WindowPoseEstimator estimator_;
   WindowFilter filter_;
   struct Checks;
-  std::unique_ptr<Checks> checks_;  ///< of what is said about frames, mounting and size
+  std::unique_ptr<Checks> checks_;  ///< of the configured frames, mounting and size
   ClockCheck clocks_;
   openness::OpennessJudge judge_;
   facade::FacadeMemory facade_;
-  std::size_t heeded_ = 0;  ///< how many of those given up are known
+  std::size_t heeded_ = 0;  ///< number of abandoned windows already processed
   bool size_is_known_;
   double attitude_sigma_rad_;
   std::uint32_t target_id_ = 0;
   PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
-  CameraMotion motion_;  ///< as odometry says it: differences of poses would share the noise of the poses
+  CameraMotion motion_;  ///< from odometry, because differences of poses would share the noise of the poses
   std::optional<ObservedImage> pending_;
-  std::deque<ObservedImage> unverified_;  ///< images that the check of the mounting has yet to look at
+  std::deque<ObservedImage> unverified_;  ///< images not yet seen by the check of the mounting
   TargetUpdate last_;
 };
 

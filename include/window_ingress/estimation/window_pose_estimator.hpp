@@ -29,10 +29,10 @@ const char* toString(PoseReject reject);
 struct PoseResult {
   std::optional<WindowPoseEstimate> estimate;
   PoseReject reject = PoseReject::kNone;
-  std::string detail;  ///< with numbers, for people: "reprojection 4.2 px > 3.0 px"
+  std::string detail;  ///< for people, with numbers: "reprojection 4.2 px > 3.0 px"
 };
 
-/// What else may be known of the window when an image of it is taken. What is not usable is ignored.
+/// Prior knowledge for one image of the window. Unusable values are ignored.
 struct PoseHints {
   std::optional<GravityPrior> gravity = std::nullopt;
   std::optional<SizeEstimate> size = std::nullopt;  ///< instead of the parameters' size
@@ -44,8 +44,8 @@ class WindowPoseEstimator {
   /// \throws std::invalid_argument that lists every parameter out of range
   explicit WindowPoseEstimator(const PoseParams& params);
 
-  /// \param window its corners in any cyclic order (they are put upright: by gravity, without it by the
-  ///        camera's own up); or, of a partial view, four visible borders
+  /// \param window corners in any cyclic order (turned upright by gravity, or else by the camera's own up);
+  ///        for a partial view, four visible borders
   PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                       const PoseHints& hints = {}) const;
 

@@ -13,55 +13,54 @@
 
 namespace window_ingress::facade {
 
-/// A window that was seen, and what is known of it.
+/// A window that was seen, with all that is known of it.
 struct KnownWindow {
-  std::uint32_t id = 0;   ///< from 1, once enough images have shown it, on the wall or like the target; never
-                          ///< given to another one, but after a reset
-  std::uint32_t key = 0;  ///< from 1, since the first image that showed it; the older one's is less
+  std::uint32_t id = 0;   ///< from 1, given once enough images show it on the wall or with the target's look;
+                          ///< not reused before a reset
+  std::uint32_t key = 0;  ///< from 1, given at the first sight; ascending with time
   WindowPlace place;
   double last_seen_sec = 0.0;
-  int sights = 0;                       ///< images that showed it
-  double score = 0.0;                   ///< of the last of them, 0 to 1
-  std::optional<double> bhattacharyya;  ///< least distance to the reference so far
-  bool may_be_target = false;           ///< nothing in the last image spoke against its look
+  int sights = 0;                       ///< number of images that showed it
+  double score = 0.0;                   ///< score in the last of these images, 0 to 1
+  std::optional<double> bhattacharyya;  ///< smallest distance to the reference so far
+  bool may_be_target = false;           ///< its look in the last image does not exclude it
   openness::OpennessVerdict openness;
-  int visits = 0;    ///< how often it was flown at
-  int failures = 0;  ///< how often it was given up: closed, or tried in vain
+  int visits = 0;    ///< number of approaches
+  int failures = 0;  ///< number of times it was given up: closed, or all attempts failed
 };
 
-/// One image, and from where it was taken.
+/// One image and its viewpoint.
 struct FacadeView {
   double stamp_sec = 0.0;
   Viewpoint from;
   std::vector<detection::SeenWindow> windows;
-  std::uint32_t track_id = 0;  ///< of the one that is the target by the image; 0: none
+  std::uint32_t track_id = 0;  ///< track of the target in this image; 0: none
 };
 
-/// All windows seen, in the odometry frame, each with a number of its own.
+/// All windows seen, in the odometry frame, each with its own number.
 ///
-/// A sight belongs to the window whose place it fits (Mahalanobis distance, odometry's drift included, or
-/// closer to it than another window can be), each sight to one window and each window to one sight of an
-/// image, the nearest first. Two windows that come to lie in one place without ever having been seen side by
-/// side are one. So neighbours of the same look stay apart, and a window is found again after a loss where it
-/// was.
+/// A sight is assigned to the window whose place it fits: by Mahalanobis distance including odometry drift,
+/// or because no other window can be that close. Each sight gets one window and each window one sight per
+/// image, nearest pairs first. Two windows in one place that were never seen side by side are merged. So
+/// similar neighbours stay apart, and a lost window is found again at its place.
 class FacadeMap {
  public:
   explicit FacadeMap(const FacadeParams& params) : params_(params) {}
 
-  /// Measured, and as large as the window looked for.
+  /// True if its size is measured and that of the window looked for.
   static bool isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for);
-  /// \param wall in which unknown windows are taken to lie
-  /// \param looked_for size that windows are taken to have where nothing else tells their distance; what is
-  /// less than half as wide or high is no window \param kept number of one that is not forgotten, and which
-  /// it keeps where it turns out to be one with another
+  /// \param wall wall in which new windows are assumed to lie
+  /// \param looked_for assumed size of windows whose distance is otherwise unknown; less than half as wide or
+  /// high is not a window
+  /// \param kept number of a window that is not forgotten, and that keeps this number in a merge
   void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
            std::uint32_t kept = 0);
-  /// A place that is better known than by one sight.
+  /// Corrects a place by one that is better known than from a single sight.
   void correct(std::uint32_t id, const WindowPlace& place);
 
-  /// The window that one at this place is; nothing if it is none of those known.
+  /// The known window at this place; null if there is none.
   const KnownWindow* at(const WindowPlace& place, double stamp_sec) const;
-  /// The window of the last image's target, once it has a number.
+  /// Number of the target in the last image, once it has one.
   std::optional<std::uint32_t> followed() const;
   KnownWindow* find(std::uint32_t id);
   const KnownWindow* find(std::uint32_t id) const;
@@ -69,11 +68,11 @@ class FacadeMap {
   const std::vector<KnownWindow>& windows() const { return windows_; }  ///< the oldest first
 
  private:
-  static constexpr int kMinSights = 3;  ///< images that must show a window before it has a number
+  static constexpr int kMinSights = 3;  ///< images that must show a window before it gets a number
   struct Sight {
     const detection::SeenWindow* seen = nullptr;
     WindowPlace place;
-    std::uint32_t key = 0;  ///< of the window it belongs to
+    std::uint32_t key = 0;  ///< of the assigned window
   };
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
@@ -86,7 +85,7 @@ class FacadeMap {
   FacadeParams params_;
   std::vector<KnownWindow> windows_;
   std::set<std::pair<std::uint32_t, std::uint32_t>>
-      apart_;                       // keys of those seen side by side, the lower first
+      apart_;                       // keys of windows seen side by side, the lower first
   std::uint32_t followed_key_ = 0;  // 0: none
   std::uint32_t last_id_ = 0, last_key_ = 0;
 };

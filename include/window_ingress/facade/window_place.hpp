@@ -9,49 +9,49 @@
 
 namespace window_ingress::facade {
 
-/// Where a window is in the odometry frame, and how large it is.
+/// Pose and size of a window in the odometry frame.
 struct WindowPlace {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();      ///< of the opening's centre
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of it [m^2]
-  double heading_rad = 0.0;                                  ///< of the way through, about z
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of the position [m^2]
+  double heading_rad = 0.0;                                  ///< direction of flight through it, about z
   geometry::OpeningSize size;
-  bool on_wall = false;  ///< heading, size and distance were measured; else they are those assumed
+  bool on_wall = false;  ///< heading, size and distance are measured, not assumed
 };
 
-/// The wall in which a window was found: its neighbours lie in it, too.
+/// The wall in which a window was found; its neighbours lie in it, too.
 struct Wall {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< a point of it, in odom
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< a point on the wall, in odom
   double heading_rad = 0.0;                              ///< of the way through
-  double sigma_m = 0.0;  ///< standard deviation along the way through, at the point
+  double sigma_m = 0.0;  ///< standard deviation along its normal, at the point
   double heading_sigma_rad = 0.0;
 };
 
-constexpr double kWallSigmaM = 0.15;  ///< how far windows lie before or behind the plane of the target
+constexpr double kWallSigmaM = 0.15;  ///< spread of windows in front of or behind the plane of the target
 
-/// From where an image was taken.
+/// Viewpoint of an image.
 struct Viewpoint {
   geometry::PinholeCamera camera;
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
 };
 
-/// A window seen at `corners`: where the lines of sight meet the wall; without a wall, or where it is seen
-/// too obliquely, as far away as a window of the size looked for would be, which is little known. \param
-/// corners in pixels of the image as it came \return nothing if it is behind, or too far
+/// Place of a window seen at `corners`: where the lines of sight meet the wall. Without a wall, or if it is
+/// seen too obliquely, the distance is that of a window of the size looked for, with a large uncertainty.
+/// \param corners distorted pixels
+/// \return nothing if the window is behind the camera or too far away
 std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const Viewpoint& view,
                                    const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for);
 
 /// T_odom_window of an upright window.
 Eigen::Isometry3d poseOf(const WindowPlace& place);
 
-/// Where it is in the image, as that comes (distorted); nothing if it is not wholly in view.
+/// Its place in the image (distorted pixels); nothing if it is not wholly in view.
 std::optional<geometry::Quadrilateral> inView(const WindowPlace& place, const Viewpoint& view);
 
-/// Squared distance of two places in standard deviations, of three degrees of freedom.
-/// \param drift_m2 variance that the odometry has gathered in between [m^2]
+/// Squared Mahalanobis distance of two places, three degrees of freedom.
+/// \param drift_m2 variance that odometry has accumulated in between [m^2]
 double squaresBetween(const WindowPlace& a, const WindowPlace& b, double drift_m2);
 
-/// The better of what both say, though it is not known how far their errors are the same: covariance
-/// intersection (Julier and Uhlmann 1997).
+/// Fusion of two places whose errors may be correlated: covariance intersection (Julier and Uhlmann 1997).
 WindowPlace fused(const WindowPlace& a, const WindowPlace& b);
 
 }  // namespace window_ingress::facade

@@ -10,9 +10,9 @@ inline constexpr double kDegreesPerRad = 180.0 / M_PI;
 
 /// Euler angles of the paper [rad]: theta about x, phi about y, psi about z.
 ///
-/// The paper's matrix product (its eq. 8) contradicts its own angle formulas, which belong to `R = Rz(psi) *
-/// Ry(phi) * Rx(theta)`. That product is used here. For a forward-left-up frame the angles are roll, pitch
-/// and yaw.
+/// The paper's matrix product (its eq. 8) contradicts its own angle formulas. They belong to
+/// `R = Rz(psi) * Ry(phi) * Rx(theta)`, which is used here. For a forward-left-up frame the angles are roll,
+/// pitch and yaw.
 struct EulerAngles {
   double theta_rad = 0.0;
   double phi_rad = 0.0;

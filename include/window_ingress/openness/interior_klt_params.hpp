@@ -2,12 +2,12 @@
 
 namespace window_ingress::openness {
 
-/// How the texture within the opening is followed; see `InteriorKltTracker`.
+/// How the texture within the opening is tracked; see `InteriorKltTracker`.
 struct InteriorKltParams {
-  bool enabled = true;         ///< follow the texture within the opening; without it no opening is verified
-  int max_points = 50;         ///< corners followed at once within the opening; each costs time
-  int max_edges = 30;          ///< edge points followed at once across their edges; each costs time
-  double max_side_px = 160.0;  ///< longer side of the rectified image of the opening; larger costs time [px]
+  bool enabled = true;         ///< track the texture within the opening; without it no opening is verified
+  int max_points = 50;         ///< number of corners tracked within the opening; each costs time
+  int max_edges = 30;          ///< number of edge points tracked across their edges; each costs time
+  double max_side_px = 160.0;  ///< longer side of the opening's rectified image; larger costs time [px]
   double surface_slope = 0.7;  // of noise and shading within a surface [grey levels a pixel]; not in `visit`
 
   template <typename Self, typename Visitor>

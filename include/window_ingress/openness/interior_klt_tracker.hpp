@@ -8,16 +8,16 @@
 
 namespace window_ingress::openness {
 
-/// Follows the texture within the opening from a key image to each later one.
+/// Tracks the texture within the opening from a keyframe to each later image.
 ///
-/// The opening is straightened by the homography of its four corners, in both images to the same rectangle:
-/// what lies in the plane of the border stays where it is in there, what lies behind moves. So the flow
-/// between the two (pyramidal Lucas-Kanade, forth and back) is small whatever the vehicle does, and starts
-/// where the image before ended. The straightening is but an aid: what is handed out are points of the
-/// images as they came. A new key image is taken when the points get lost, the window has grown, or the key
-/// is old; so the stretches of the flight between key images are disjoint.
+/// The homography of the four corners rectifies the opening to the same rectangle in both images: points in
+/// the plane of the border stay in place, points behind it move. So the flow between the two (pyramidal
+/// Lucas-Kanade, forward and back) is small for any motion of the vehicle, and starts where the last image
+/// ended. Rectified images are used internally only: the points given out are distorted pixels. A new
+/// keyframe is taken when points get lost, the window has grown, or the keyframe is old; so the stretches of
+/// the flight between keyframes are disjoint.
 ///
-/// Keeps its memory from image to image. One object a thread.
+/// Reuses its memory. One object per thread.
 class InteriorKltTracker {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
@@ -25,8 +25,8 @@ class InteriorKltTracker {
   ~InteriorKltTracker();
 
   /// \param image CV_8UC1 or CV_8UC3 (BGR), in which the window was seen; not kept
-  /// \param window receives `interior`. A window that is not whole gets none; another `target_id`, or time
-  ///        that goes back, begins anew.
+  /// \param window receives `interior`, but not if it is partial. Another `target_id`, or time that goes
+  ///        back, starts anew.
   void follow(const cv::Mat& image, detection::WindowObservation& window);
   void reset();
 

@@ -11,7 +11,7 @@
 
 namespace window_ingress::openness {
 
-/// Parts D / (d + D) that a closed and an open way have, seen from a distance d.
+/// Ranges of D / (d + D) for a closed and an open way, seen from a distance d.
 struct DepthParts {
   double closed_from, closed_to;  ///< next to the plane: a surface that closes it
   double open_from, open_to;      ///< a room
@@ -21,22 +21,21 @@ struct DepthParts {
   double logOdds(double part, double sigma) const;
 };
 
-/// What one point within the opening has shown since its key image. All of it bears the same errors of the
-/// key image, so the best look counts and no sum of looks; the others must agree with it, each by the way
-/// that had been flown by then. A border that jumps to another edge, or texture that moves by itself, does
-/// not.
+/// Evidence from one point within the opening since its keyframe. All looks share the errors of the keyframe,
+/// so the best look counts, not their sum. The other looks must agree with it, each for the distance flown by
+/// then; a border that jumps to another edge, or texture that moves by itself, does not.
 class TrackEvidence {
  public:
   void see(const PointParallax& look);
   const PointParallax& best() const { return best_; }
   const PointParallax& last() const { return last_; }
-  /// Seen from two places at least that tell, and all of it agrees with a point that stands still.
+  /// All looks agree with a point that stands still.
   bool isSteady(double max_sigmas) const;
   bool isTested() const { return samples_ > 1; }
 
  private:
   static constexpr int kSamples = 6;
-  static constexpr double kGrowth = 1.25;  ///< of the gain from sample to sample
+  static constexpr double kGrowth = 1.25;  ///< of the gain, from sample to sample
   struct Sample {
     double part, sigma, gain_px;
   };
@@ -45,29 +44,29 @@ class TrackEvidence {
   std::array<Sample, kSamples> ring_{};
 };
 
-constexpr double kMaxLogOdds = 4.0;  ///< that one stretch may bring
+constexpr double kMaxLogOdds = 4.0;  ///< limit for one stretch
 
-/// What one stretch of the flight, from a key image to the next, says.
+/// Result of one stretch of the flight, from a keyframe to the next.
 struct StretchSays {
-  double log_odds = 0.0;                      ///< open over closed, within `kMaxLogOdds`; 0: nothing
-  int points = 0;                             ///< that stand still and were seen from places enough
+  double log_odds = 0.0;                      ///< open over closed, within `kMaxLogOdds`; 0: undecided
+  int points = 0;                             ///< points that stand still and were seen from enough places
   int unsteady = 0;                           ///< that do not stand still
-  double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without any
-  bool is_too_deep = false;  ///< so much of it lies behind any room that it does not speak for an open way
-  bool is_moving = false;    ///< so much does not stand still that nothing is said
+  double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without points
+  bool is_too_deep = false;  ///< too many points lie deeper than any room: no evidence for an open way
+  bool is_moving = false;    ///< too many points do not stand still: undecided
 };
 
-/// The points of one stretch. Errors of the borders are common to all of them: the verdict of the stretch is
-/// that of its median point, however many there are.
+/// The points of one stretch. They share the errors of the borders, so the verdict of the stretch is that of
+/// its median point, however many points there are.
 class KeyframeEvidence {
  public:
   void begin(double key_stamp_sec);
   double keyStamp() const { return key_stamp_sec_; }
 
-  /// \param through for each point: its sight would reach the room past the opening's inner faces
-  /// \param beside cells beside it, as in `InteriorPoint::beside`
+  /// \param through the line of sight would reach the room past the opening's inner faces
+  /// \param beside cells beside the point, as in `InteriorPoint::beside`
   void see(int id, const PointParallax& look, bool through, std::uint64_t beside);
-  /// Takes what a point showed into the cells, if it stands still.
+  /// Enters the points that stand still into the cells.
   void mark(const DepthParts& parts, OpeningCells& cells);
   StretchSays says(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
 

@@ -14,31 +14,31 @@
 
 namespace window_ingress::openness {
 
-/// One image of the target, with what filter and odometry say of it.
+/// One image of the target with its poses from filter and odometry.
 struct OpennessView {
   const detection::WindowObservation& window;
   const geometry::PinholeCamera& camera;
   Eigen::Isometry3d T_odom_camera;
-  Eigen::Isometry3d T_odom_window;  ///< as filtered
-  geometry::OpeningSize opening;    ///< that goes with it
+  Eigen::Isometry3d T_odom_window;  ///< from the filter
+  geometry::OpeningSize opening;    ///< its size in the filter
 };
 
-/// Whether the opening is open, by how the texture within it moves against the plane of its border.
+/// Decides whether the opening is open, by the motion of the texture within it against the border's plane.
 ///
-/// The flight falls into stretches, one from each key image to the next. Within a stretch nothing adds up:
-/// the best look at each point counts, its median is the stretch's word, and that word is capped. Stretches
-/// do add up, for each has borders of its own; an opening is never called open or closed by a single one.
-/// Open needs more: seen through all four quarters of the middle that the vehicle needs, hardly anything of
-/// it closed, no deeper than a room is.
+/// The flight consists of stretches, each from a keyframe to the next. Within a stretch evidence is not
+/// summed: the best look at each point counts, and the stretch's verdict is their median, limited in size.
+/// Stretches are summed, because each has its own borders; a single one never decides. OPEN also needs: depth
+/// seen through all four quarters of the middle that the vehicle needs, hardly anything of it closed, and no
+/// depth beyond that of a room.
 ///
-/// No clock, no image. The caller resets it when the odometry is another one.
+/// No clock, no image. The caller resets it when the odometry frame changes.
 class OpennessJudge {
  public:
   /// \param needed size of the middle of the opening that the vehicle needs
   /// \throws std::invalid_argument that lists every parameter out of range
   OpennessJudge(const OpennessParams& params, const geometry::OpeningSize& needed);
 
-  /// Another `target_id` or a stamp that goes back begins anew.
+  /// Another `target_id` or a stamp that goes back starts anew.
   void see(const OpennessView& view);
   const OpennessVerdict& verdict() const { return verdict_; }
   void reset();
@@ -50,8 +50,8 @@ class OpennessJudge {
   };
   struct Count {
     double log_odds = 0.0;
-    int open = 0, closed = 0;  ///< stretches that said so
-    int moving = 0;            ///< stretches in which too much did not stand still
+    int open = 0, closed = 0;  ///< stretches with this verdict
+    int moving = 0;            ///< stretches in which too many points moved
   };
   void close();
   void compare(const OpennessView& view, const Eigen::Isometry3d& T_odom_camera_key);

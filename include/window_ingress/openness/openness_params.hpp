@@ -2,16 +2,15 @@
 
 namespace window_ingress::openness {
 
-/// What is called open, and how sure that must be; see `OpennessJudge`.
+/// What counts as open, and how certain that must be; see `OpennessJudge`.
 struct OpennessParams {
-  double max_depth_closed_m =
-      0.35;  ///< a surface up to this far behind the front border closes the opening [m]
-  double min_depth_behind_m =
-      0.7;  ///< what is seen through an open window lies at least this far behind its border [m]
-  double max_depth_behind_m = 10.0;  ///< deeper than any room: what lies beyond is a mirror image or dirt on
-                                     ///< the lens, and proves nothing [m]
-  double reveal_depth_m = 0.4;       ///< depth of the opening's inner faces, which close nothing [m]
-  double sure_log_odds = 6.0;  ///< log odds of open against closed at which the opening is called either
+  double max_depth_closed_m = 0.35;  ///< a surface up to this far behind the border closes the opening [m]
+  double min_depth_behind_m = 0.7;   ///< least depth behind the border of what is seen through an open window
+                                     ///< [m]
+  double max_depth_behind_m = 10.0;  ///< anything deeper than this is a mirror image or dirt on the lens and
+                                     ///< proves nothing [m]
+  double reveal_depth_m = 0.4;       ///< depth of the opening's inner faces, which do not count as closed [m]
+  double sure_log_odds = 6.0;        ///< log odds at which the opening counts as open or closed
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
