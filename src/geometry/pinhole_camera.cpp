@@ -41,7 +41,7 @@ Eigen::Vector2d undistortNormalised(const std::array<double, 5>& d, const Eigen:
   return p;
 }
 
-constexpr double kWidestRad = 1.5;  // of an equidistant lens: further off the axis there are no ideal pixels
+constexpr double kWidestRad = 1.5;  // of an equidistant lens: there are no ideal pixels further off the axis
 
 double bent(const std::array<double, 5>& d, double theta) {
   const double t2 = theta * theta;
@@ -64,7 +64,7 @@ double straightened(const std::array<double, 5>& d, double bent_rad) {
   return theta;
 }
 
-// On normalised coordinates; the direction about the axis stays.
+// On normalised coordinates; keeps the direction about the axis.
 Eigen::Vector2d distortEquidistant(const std::array<double, 5>& d, const Eigen::Vector2d& p) {
   const double radius = p.norm();
   return radius > 1e-12 ? Eigen::Vector2d(p * (bent(d, std::atan(radius)) / radius)) : p;
@@ -109,7 +109,7 @@ std::vector<std::string> PinholeCamera::validate() const {
 }
 
 bool PinholeCamera::hasDistortion() const {
-  if (model == LensModel::kEquidistant) return true;  // whatever its coefficients
+  if (model == LensModel::kEquidistant) return true;  // for any coefficients
   return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
 }
 

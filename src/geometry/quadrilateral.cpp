@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// A quadrilateral clipped four times; each time at most half as many points are added.
+/// A quadrilateral clipped four times; each clip adds at most half as many points.
 struct Polygon {
   std::array<Vector2d, 20> points;
   int count = 0;

@@ -44,7 +44,7 @@ void readLens(const YAML::Node& root, const std::string& file, geometry::Pinhole
   const bool straight = std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; });
   const std::string model =
       root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
-  const bool fisheye = model == "equidistant" || model == "fisheye";  // two words for the same
+  const bool fisheye = model == "equidistant" || model == "fisheye";  // two names of one model
   if (straight && !fisheye) return;
   if (!fisheye && model != "plumb_bob")
     refuse(file, "distortion_model: '" + model +

@@ -7,7 +7,7 @@
 namespace window_ingress::parameters {
 namespace {
 
-// Ends of paths that had another name in earlier versions.
+// Ends of paths that were named differently in earlier versions.
 const std::pair<const char*, const char*> kMoved[] = {
     {"navigator/vehicle", "'vehicle: {..}', beside the nodes: said once for all of them"},
     {"tracker/fit", "'vehicle: {half_width_m: .., half_height_m: .., margin_m: ..}', beside the nodes"},
@@ -32,7 +32,7 @@ struct Group {
   const char* names;
 };
 
-// What is no parameter any more: groups, and names in them. Those of a node have an empty group.
+// Former parameters, now constants: groups and the names in them. Those of a node have an empty group.
 const Group kConstants[] = {
     {"lines", " max_gap vote_fraction "},
     {"contours", " min_perimeter "},
@@ -77,7 +77,7 @@ bool isConstant(const std::string& path, const Group& group) {
   return std::string(group.names).find(" " + name + " ") != std::string::npos && endsWith(path, end);
 }
 
-// What to say behind "unknown key" of one that earlier versions read; empty for all others.
+// Text after "unknown key" for a key of earlier versions; empty for all others.
 std::string whatBecameOf(const std::string& path) {
   for (const auto& [end, now] : kMoved)
     if (endsWith(path, end)) return std::string("; it is now ") + now;
@@ -93,8 +93,7 @@ std::string groupOf(const std::string& path) {
 
 std::string nameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-// Letters to insert, remove or exchange, neighbours that have changed places counting once (optimal string
-// alignment).
+// Number of letters to insert, remove or replace; swapped neighbours count once (optimal string alignment).
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> to(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) to[i][0] = i;
@@ -109,24 +108,24 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return to[a.size()][b.size()];
 }
 
-// As it stands in a file: "a/b/c" is "a: {b: {c: ..}}".
+// The path in yaml: "a/b/c" is "a: {b: {c: ..}}".
 std::string inYaml(const std::string& path) {
   const auto slash = path.find('/');
   if (slash == std::string::npos) return path + ": ..";
   return path.substr(0, slash) + ": {" + inYaml(path.substr(slash + 1)) + "}";
 }
 
-// A name without its unit is as good as one with a letter wrong.
+// A name without its unit counts like one wrong letter.
 std::size_t nameDistance(const std::string& name, const std::string& known) {
   return known.compare(0, name.size() + 1, name + "_") == 0 ? 1 : distance(name, known);
 }
 
-// How far a known path is from the one that is not: first by its name, then by where it stands.
+// Distance of a known path from the unknown one: first by name, then by group.
 std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const std::string& known) {
   return {nameDistance(nameOf(path), nameOf(known)), distance(groupOf(path), groupOf(known))};
 }
 
-// The few keys that could stand beside it; nothing where there are many.
+// The keys of the same group, if they are few; else nothing.
 std::string neighboursOf(const std::string& path, const std::vector<std::string>& known) {
   constexpr std::size_t kFew = 16;
   const std::string group = path.substr(0, path.size() - nameOf(path).size());
@@ -142,8 +141,7 @@ std::string neighboursOf(const std::string& path, const std::vector<std::string>
   return names.size() > kFew ? "" : listed;
 }
 
-// All keys of that name, of the node that the path begins with if it has any: which of them is meant nobody
-// knows.
+// All keys of that name, those of the path's own node if there are any: the intended one is unknown.
 std::vector<std::string> namesakesOf(const std::string& nearest, const std::string& path,
                                      const std::vector<std::string>& known) {
   const std::string node = path.substr(0, path.find('/') + 1);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kSecondTime[] = ": stands here for the second time";
 
-/// Walks over a file, and knows which of its keys there may be.
+/// Walks through a file and checks its keys against the known ones.
 class YamlReader {
  public:
   YamlReader(const std::string& file, const std::vector<Field>& fields)
@@ -45,8 +45,8 @@ class YamlReader {
   std::vector<std::string> keys_;
 };
 
-// Whether ROS, too, reads what is no text here as none: in quotes, as "1e-3", "-.5" and "y" it is a text
-// there, and "010" is eight.
+// Whether ROS reads a value that is not a text here in the same way: in quotes, and as "1e-3", "-.5" or "y",
+// ROS reads a text, and "010" as eight.
 bool isPlainForRos(const YAML::Node& node) {
   if (node.IsSequence()) return std::all_of(node.begin(), node.end(), isPlainForRos);
   const std::string& text = node.Scalar();
@@ -60,7 +60,7 @@ bool isPlainForRos(const YAML::Node& node) {
   return !is_octal && !is_text && (first == 0 || text[first] != '.');
 }
 
-// What stands there, for people.
+// The value found, for people.
 std::string found(const YAML::Node& node) {
   if (node.IsScalar()) return "'" + node.Scalar() + "'";
   return node.IsSequence() ? "a list" : node.IsMap() ? "a mapping" : "empty";
@@ -122,7 +122,7 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
       faults.add(faultAt(file, entry.first, place + "a key must be a word"));
     else if (!names.insert(entry.first.Scalar()).second)
       faults.add(faultAt(file, entry.first, path + entry.first.Scalar() + kSecondTime));
-    else if (entry.second.IsNull())  // its own mark is that of what follows
+    else if (entry.second.IsNull())  // its own mark is that of the next entry
       faults.add(faultAt(
           file, entry.first,
           path + entry.first.Scalar() +

@@ -1,4 +1,4 @@
-/// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
+/// Checks whether a file may override the defaults; see --help. Launch files call it before they start nodes.
 #include <ros/package.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ tools::OptionList describe(Options& o) {
   return add;
 }
 
-// As in launch files: brackets and blanks may stand round it.
+// As in launch files: may be surrounded by brackets and blanks.
 std::string given(std::string text) {
   const std::size_t begin = text.find_first_not_of(" []");
   if (begin == std::string::npos) return "";
@@ -78,12 +78,12 @@ std::string given(std::string text) {
   return text == "none" ? "" : text;
 }
 
-// Something flies that is no simulation of ours.
+// A vehicle flies that is not in this package's simulation.
 bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
 
 bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty() && o.bag.empty(); }
 
-/// \return width over height of the opening in the reference image; 0: nobody says it
+/// \return width over height of the opening in the reference image; 0: not given
 double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
   configuration::ReferenceParams reference = detector.reference;
@@ -140,7 +140,7 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   tools::takeWindowSize("window_size", text, pose);
 }
 
-// Width and height exchanged, or one of them misread. Seen aslant an image may be off by less.
+// Detects width and height exchanged, or one of them misread. An oblique view differs by less.
 void checkAspect(double in_image, const estimation::PoseParams& opening) {
   constexpr double kMaxRatio = 1.25;
   const double said = opening.opening_width_m / opening.opening_height_m;
@@ -172,7 +172,7 @@ void checkCameraPose(const std::string& text, const navigation::VehicleParams& v
   }
 }
 
-// Values that do not go together.
+// Rejects values that contradict each other.
 void checkNavigator(const std::string& file, const navigation::NavigatorParams& params) {
   try {
     navigation::checked(params);
@@ -198,7 +198,7 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
   const auto file = tools::launchFileOf(words, o.launch_folder);
   if (file.empty()) return;
   faults.collect([&] { tools::checkLaunchArguments(words, file); });
-  std::vector<const char*> nodes;  // of ingress.launch alone
+  std::vector<const char*> nodes;  // of ingress.launch only
   if (!o.fly.empty()) nodes = {"/window_detector", "/homography_pose"};
   if (o.fly == "true") nodes.insert(nodes.end(), {"/ingress_navigator", "/setpoint_guard"});
   faults.collect([&] { tools::checkNoneRuns(words, nodes); });
@@ -211,15 +211,14 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
     });
 }
 
-// Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is
-// there.
+// Nodes run in another folder, but this program does not: here a relative path is valid if the file exists.
 std::string existing(const std::string& file) {
   if (!file.empty() && !std::filesystem::exists(file))
     throw InputError("config " + std::filesystem::absolute(file).string() + ": no such file");
   return file;
 }
 
-// rosbag replaces what is there without a word.
+// rosbag replaces an existing file without a warning.
 void checkIsNew(const std::string& bag) {
   if (!bag.empty() && std::filesystem::exists(bag))
     throw InputError("record:=" + bag +
@@ -251,7 +250,7 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
-// What is wrong with the parameter file is said where it is loaded.
+// Faults of the parameter file are reported where it is loaded.
 void checkScenario(const Options& o) {
   const auto scenario = simulation::loadScenario(o.scenario, 1);
   configuration::Overlay overlay;

@@ -1,4 +1,4 @@
-/// What the command-line tools share: their errors, and options that need more than boost's parser.
+/// Common to the command-line tools: errors, and options that need more than boost's parser.
 #pragma once
 
 #include <boost/algorithm/string/replace.hpp>
@@ -22,16 +22,15 @@
 
 namespace window_ingress::tools {
 
-/// Of --params, the same for every tool.
+/// Help of --params, the same for every tool.
 constexpr const char* kParamsHelp =
     "yaml file laid over the defaults, as config:= of launch files: its first level names the nodes, and the "
     "vehicle";
 
-/// Of --overwrite, where a tool writes files that a user may have changed.
+/// Help of --overwrite, for tools that write files a user may have changed.
 constexpr const char* kOverwriteHelp = "replaces files that are there already";
 
-/// `count` finite numbers with commas between, any number of them for 0. \throws InputError that names the
-/// option
+/// `count` finite numbers separated by commas; 0: any count. \throws InputError that names the option
 inline std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
   std::vector<double> values;
   bool good = true;
@@ -48,7 +47,7 @@ inline std::vector<double> numbers(const std::string& option, const std::string&
   return values;
 }
 
-/// Any number of them, each between two bounds. \throws InputError
+/// Any count of numbers, each within two bounds. \throws InputError
 inline std::vector<double> numbersWithin(const std::string& option, const std::string& text, double least,
                                          double most) {
   const std::vector<double> values = numbers(option, text, 0);
@@ -58,7 +57,7 @@ inline std::vector<double> numbersWithin(const std::string& option, const std::s
   return values;
 }
 
-/// All of a file; empty if it cannot be read.
+/// Content of a file; empty if it cannot be read.
 inline std::string contentOf(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -71,15 +70,15 @@ inline void makeFolder(const std::string& folder) {
   if (error || !std::filesystem::is_directory(folder)) throw InputError(folder + ": cannot make this folder");
 }
 
-/// \throws InputError if one of the files is there: somebody may still need it
+/// \throws InputError if one of the files exists, because it may still be needed
 inline void checkReplacesNothing(const std::vector<std::filesystem::path>& files) {
   for (const auto& file : files)
     if (std::filesystem::is_regular_file(file))
       throw InputError(file.string() + " is there already: --overwrite replaces it, or give another name");
 }
 
-/// Runs a tool. What it throws becomes a line on stderr, one for each fault, and the exit code: 2 for wrong
-/// usage and for input that cannot be used, 1 for a job that failed.
+/// Runs a tool. An exception becomes lines on stderr, one per fault, and the exit code: 2 for wrong usage or
+/// unusable input, 1 for a failed job.
 template <typename Body>
 int runTool(const char* name, const Body& body) {
   const auto fail = [name](const std::string& what, int code) {
@@ -100,7 +99,7 @@ int runTool(const char* name, const Body& body) {
   }
 }
 
-/// What a number may be.
+/// Limits of a number.
 struct Bounds {
   double least, most;
 };
@@ -150,10 +149,10 @@ class OptionList : public boost::program_options::options_description {
     return names;
   }
 
-  boost::program_options::positional_options_description unnamed;  ///< which need no name
+  boost::program_options::positional_options_description unnamed;  ///< options given without a name
 };
 
-/// \throws InputError if --output is one of the files that are read: it would be lost
+/// \throws InputError if --output is an input file, which would be lost
 inline void checkReplacesNoInput(const boost::program_options::variables_map& given) {
   if (given.count("output") == 0) return;
   const auto& output = given["output"].as<std::string>();
@@ -168,7 +167,7 @@ inline void checkReplacesNoInput(const boost::program_options::variables_map& gi
   }
 }
 
-/// The same, with the arguments taken apart first: whole names only, --seed is not taken for --seeds.
+/// The same after parsing the arguments: full names only, --seed does not stand for --seeds.
 /// \param describe binds an `Options` to what --help prints
 template <typename Options, typename Body>
 int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Options&), const Body& body) {
@@ -198,10 +197,10 @@ int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Opti
   });
 }
 
-/// A line on stderr now and then, so that nobody thinks that a tool hangs.
+/// Prints a progress line on stderr now and then.
 class Progress {
  public:
-  /// \param what is counted: "images"
+  /// \param what unit that is counted: "images"
   Progress(std::string tool, std::string what, std::size_t total)
       : tool_(std::move(tool)), what_(std::move(what)), total_(total) {}
 

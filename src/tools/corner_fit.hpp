@@ -1,4 +1,4 @@
-/// Fits clicked corners to the edges near them, and says what speaks against those that lie on none.
+/// Fits clicked corners to the edges near them, and reports those that lie on no edge.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +13,23 @@
 
 namespace window_ingress::tools {
 
-constexpr double kMaxShownPx = 1000.0;  // of the image on the screen: 300 more are the panel's
+constexpr double kMaxShownPx = 1000.0;  // of the image on the screen, 300 more for the panel
 constexpr double kFitRadiusPx = 6.0;    // on the screen
-constexpr double kMaxMovedPx = 3.0;     // of a side by the fit, on the screen: clicks are better than that
+constexpr double kMaxMovedPx = 3.0;     // of a side by the fit, on the screen: clicks are more accurate
 constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
 constexpr double kNearPx = 3.0;         // on the screen: corners further from an edge are doubtful
 constexpr double kMinOnEdge = 0.7;      // of each side, on one straight edge
 const char* const kSides[] = {"top", "right", "bottom", "left"};
 
-/// What became of an attempt to fit the corners to the edges near them.
+/// Result of a fit of the corners to the edges near them.
 struct CornerFit {
-  std::vector<double> corners;  ///< empty: none to be trusted
-  std::string said;             ///< by how much each side moves, or why the fit is refused
+  std::vector<double> corners;  ///< empty: the fit failed
+  std::string said;             ///< how far each side moves, or why the fit is refused
 };
 
 inline CornerFit noFit(const std::string& why) { return {{}, why}; }
 
-// How far the side that begins at this corner has moved, at its ends [px].
+// How far the ends of the side that begins at this corner have moved [px].
 inline double sideMovedPx(const geometry::Quadrilateral& from, const geometry::Quadrilateral& to,
                           std::size_t side) {
   const Eigen::Vector2d begin = to[side], along = (to[(side + 1) % 4] - begin).normalized();
@@ -45,8 +45,8 @@ inline double shortestSide(const geometry::Quadrilateral& quad) {
   return shortest_px;
 }
 
-/// To the strongest edges within `radius_px` on the screen. A side that finds none, or one that lies further
-/// away than anybody clicks, is not the one that is meant.
+/// Fits to the strongest edges within `radius_px` on the screen. Refused if a side finds no edge, or one too
+/// far away for a click.
 inline CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std::vector<double>& corners) {
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
@@ -73,14 +73,13 @@ inline CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std:
   return fit;
 }
 
-/// A deep frame has two edges side by side, and the further one may be the stronger: what lies near comes
-/// first.
+/// A deep frame has two parallel edges, and the further one may be the stronger: near edges are tried first.
 inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners) {
   const CornerFit near = fittedWithin(kNearPx, image, corners);
   return near.corners.empty() ? fittedWithin(kFitRadiusPx, image, corners) : near;
 }
 
-/// How far corners that are saved as they are lie from the edges near them; none are near poor corners.
+/// Distance of unfitted corners from the edges near them; no edges are near poor corners.
 inline CornerFit besideEdges(const cv::Mat& image, const std::vector<double>& corners) {
   CornerFit fit = fittedWithin(kNearPx, image, corners);
   fit.said = (fit.corners.empty() ? "poor corners: " : "beside the edges near them: ") + fit.said;

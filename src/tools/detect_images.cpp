@@ -1,4 +1,4 @@
-/// Finds the window in single images; one csv row each. See --help.
+/// Finds the window in single images; one csv row per image. See --help.
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -29,10 +29,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Looks for the window in each image by itself, or follows it from image to image.
+/// Searches the window in each image separately, or tracks it from image to image.
 class WindowFinder {
  public:
-  /// \param sequence_hz the images are a sequence of so many a second; 0: each stands alone
+  /// \param sequence_hz frame rate of an image sequence; 0: images are independent
   WindowFinder(const detection::DetectorParams& params,
                const std::optional<detection::ReferenceAppearance>& reference, double sequence_hz)
       : frame_sec_(sequence_hz > 0.0 ? 1.0 / sequence_hz : 0.0) {
@@ -80,7 +80,7 @@ struct Options {
   double rate_hz = 30.0;
 };
 
-/// What is the same for all images.
+/// Settings common to all images.
 struct Job {
   detection::DetectorParams params;
   std::optional<geometry::PinholeCamera> camera;
@@ -117,7 +117,7 @@ bool looksLikeImage(const fs::path& path) {
   return false;
 }
 
-// What is called otherwise is no table, but a picture or a parameter file that would be lost.
+// A file with another name would be an image or a parameter file, which would be lost.
 void checkTable(const char* option, const std::string& file) {
   const std::string extension = fs::path(file).extension().string();
   if (!extension.empty() && extension != ".csv")
@@ -152,9 +152,9 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
   return images;
 }
 
-// An overlay has the name of its photograph.
+// An overlay has the same name as its photograph.
 void checkOverlays(const Options& o, const std::vector<std::string>& images) {
-  for (const std::string& input : o.inputs)  // the next run would take the overlays for photographs
+  for (const std::string& input : o.inputs)  // the next run would treat the overlays as photographs
     if (fs::is_directory(input) && fs::exists(o.overlay) && fs::equivalent(input, o.overlay))
       throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
   std::map<fs::path, std::string> named;

@@ -1,4 +1,4 @@
-/// Whether there is a screen: the toolkits behind highgui end the program where there is none.
+/// Whether there is a screen: without one, the toolkits behind highgui end the program.
 #pragma once
 
 #include <sys/socket.h>
@@ -24,7 +24,7 @@ inline bool listensLocally(const std::string& display) {
   return there;
 }
 
-/// A display of another machine is taken to be there.
+/// A display of another machine is assumed to exist.
 inline bool hasDisplay() {
   if (const char* wayland = std::getenv("WAYLAND_DISPLAY"); wayland && *wayland) return true;
   const char* display = std::getenv("DISPLAY");

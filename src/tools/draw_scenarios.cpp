@@ -1,4 +1,4 @@
-/// Draws one image of each scenario, as the camera delivers it from the start, on one sheet.
+/// Draws one image of each scenario, as the camera delivers it at the start, on one sheet.
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <string>

@@ -1,4 +1,5 @@
-/// Flies a scenario many times in one process and sums up: flights.csv, tracks.csv, tracks.png, summary.json.
+/// Flies a scenario many times in one process and summarises: flights.csv, tracks.csv, tracks.png,
+/// summary.json.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -34,7 +35,7 @@ evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
           scenario.window.frame_depth_m + scenario.house.wall_thickness_m};
 }
 
-/// The files that grow while flights come in, and those drawn at the end.
+/// The files that grow during the flights, and those written at the end.
 class FlyResults {
  public:
   explicit FlyResults(const FlyJob& job)
@@ -49,7 +50,7 @@ class FlyResults {
     inputs.finish();
     rows_ << evaluation::csvHeader() << "\n";
     tracks_ << evaluation::trackHeader() << "\n";
-    rows_.finish();  // whoever ends it before the first flight leaves files that can be gone on with
+    rows_.finish();  // if stopped before the first flight, the files can still be resumed
     tracks_.finish();
   }
   void add(const evaluation::FlightResult& flight) {
@@ -63,7 +64,7 @@ class FlyResults {
   void finish() {
     rows_.finish();
     tracks_.finish();
-    // Of the numbers as they stand in the table: joined shards give the same bytes.
+    // Uses the numbers as written in the table, so that joined shards give the same bytes.
     const auto flights = evaluation::readFlights(folder_.string());
     evaluation::OutputFile summary(folder_ / "summary.json");
     summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));
@@ -85,7 +86,7 @@ class FlyResults {
     return {o.scenario,     evaluation::seedsText(seeds), o.draws, o.params,
             !o.no_pictures, WINDOW_INGRESS_VERSION};
   }
-  // Of a flight whose scenario stands for all in the image; there may be none in a shard.
+  // Seed of the flight whose scenario the image shows; a shard may have no flight.
   std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
     return flights.empty() ? 1u : flights.front().seed;
   }
@@ -102,17 +103,17 @@ Observer bagRecorder(const std::string& file) { return std::make_unique<adapters
 Observer bagRecorder(const std::string&) { return nullptr; }
 #endif
 
-/// Ctrl-C. The second one ends the program at once.
+/// Set by Ctrl-C. A second Ctrl-C ends the program at once.
 volatile std::sig_atomic_t told_to_stop = 0;
 
 void stopAfterTheseFlights(int signal) {
   constexpr char kSaid[] = "fly: stopping; the flights under way end first (once more: at once)\n";
   told_to_stop = 1;
   std::signal(signal, SIG_DFL);
-  if (write(STDERR_FILENO, kSaid, sizeof kSaid - 1) < 0) return;  // nobody is there to read it
+  if (write(STDERR_FILENO, kSaid, sizeof kSaid - 1) < 0) return;  // stderr is closed
 }
 
-// Not where it is ignored: in the background of a script.
+// Leaves an ignored signal ignored, as in the background of a script.
 void stopAt(int signal) {
   if (std::signal(signal, stopAfterTheseFlights) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
@@ -130,7 +131,7 @@ evaluation::FlightResult flyLogged(const FlyJob& job, const simulation::Scenario
   return result;
 }
 
-// A flight is the same to the bit when flown again: only those that failed are recorded.
+// A repeated flight is bit-identical, so only failed flights are flown again and recorded.
 void recordAgain(const FlyJob& job, const simulation::Scenario& scenario,
                  const evaluation::FlightResult& flight) {
   const std::string name = job.failures_folder + "/flight_" + std::to_string(flight.seed);
@@ -151,7 +152,7 @@ evaluation::FlightResult fly(const FlyJob& job, std::uint32_t seed, evaluation::
   return flight;
 }
 
-// \param before how many there were before `done` of `left` were flown
+// \param before number of flights before `done` of `left` were flown
 void printProgress(int before, int done, int left, int passed, double seconds) {
   const double a_minute = 60.0 * done / std::max(1e-3, seconds);
   std::fprintf(stderr, "%d of %d flights, %d passed, %.1f a minute, %.0f s left\n", before + done,
@@ -165,7 +166,7 @@ void printTiming(const evaluation::FlightTiming& timing) {
                timing.frames(), timing.simulatedSec(), usage.ru_maxrss / 1024.0);
 }
 
-// As `readFlights`; the error says how to begin anew.
+// As `readFlights`; the error says how to start anew.
 std::vector<evaluation::FlightResult> readToResume(const std::string& folder) {
   try {
     return evaluation::readFlights(folder);
@@ -175,7 +176,7 @@ std::vector<evaluation::FlightResult> readToResume(const std::string& folder) {
   }
 }
 
-// The last of the flights there is flown again: that it ends as it did shows that the others would.
+// Repeats the last recorded flight: if its result is the same, the others are valid, too.
 std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   const std::string& folder = job.asked.output;
   if (!job.asked.resume || !job.holdsFlights()) return {};
@@ -204,7 +205,7 @@ std::vector<std::uint32_t> without(std::vector<std::uint32_t> seeds,
   return seeds;
 }
 
-// \return how many were flown
+// \return number of flights flown
 int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResults& results) {
   std::mutex mutex;
   evaluation::FlightTiming all;

@@ -1,4 +1,4 @@
-/// What fly is asked for: its options, checked.
+/// Checked options of fly.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct FlyOptions {
   bool resume = false, overwrite = false, no_pictures = false, keep_failures = false, timing = false;
 };
 
-/// What is to be flown, and where the results go.
+/// The flights to fly, and where the results go.
 struct FlyJob {
   simulation::Scenario scenario(std::uint32_t seed) const {
     const auto draw = draws.find(seed);
@@ -39,7 +39,7 @@ struct FlyJob {
   bool holdsFlights() const { return std::filesystem::exists(asked.output + "/flights.csv"); }
 
   FlyOptions asked;
-  std::string failures_folder = {};  ///< empty: none are kept
+  std::string failures_folder = {};  ///< empty: failures are not kept
   std::vector<std::uint32_t> seeds = {};
   evaluation::FlightDraws draws = {};
   evaluation::FlightParams params = {};
@@ -86,7 +86,7 @@ inline std::vector<std::uint32_t> seedsOf(const FlyJob& job) {
   return *shard;
 }
 
-// What decides how flights end, beside the build.
+// Inputs that determine the results, apart from the build.
 inline std::string inputsOf(const FlyOptions& o) {
   std::string text;
   for (const auto& [option, file] :
@@ -97,7 +97,7 @@ inline std::string inputsOf(const FlyOptions& o) {
 
 constexpr const char* kInputsFile = "flown_with.txt";
 
-/// \throws InputError if the flights of a folder were flown with something else
+/// \throws InputError if the flights of a folder were flown with other inputs
 inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
   const std::string file = folder + "/" + kInputsFile;
   if (!std::filesystem::exists(file) || contentOf(file) == inputsOf(o)) return;
@@ -105,7 +105,7 @@ inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
                    file + " shows, or another folder");
 }
 
-// Flights that somebody has waited for are not lost to a folder given twice.
+// Protects the results of a folder that is given a second time.
 inline void checkOutput(const FlyJob& job) {
   const FlyOptions& o = job.asked;
   if (o.resume && o.overwrite) throw InputError("--resume and --overwrite: give one of them");

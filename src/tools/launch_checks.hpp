@@ -1,5 +1,5 @@
-/// What check_overlay asks of the roslaunch that calls it, which takes any argument without a word and ends
-/// nodes that run already.
+/// Checks by check_overlay of the calling roslaunch, which accepts any argument silently and ends running
+/// nodes of the same name.
 #pragma once
 
 #include <unistd.h>
@@ -38,13 +38,12 @@ inline std::vector<std::string> wordsOfParent() {
   return words;
 }
 
-/// What a launch file says of one of its arguments.
+/// Declaration of an argument in a launch file.
 struct LaunchArgument {
   std::string name, standard, doc;
 };
 
-/// What the launch file takes: its own arguments, and those of files that it includes with pass_all_args
-/// unless it sets them itself.
+/// Arguments of the launch file: its own, and those of files included with pass_all_args unless it sets them.
 inline std::vector<LaunchArgument> argumentsOf(const std::filesystem::path& file) {
   const std::string text = std::regex_replace(contentOf(file), std::regex("<!--[\\s\\S]*?-->"), "");
   const auto each = [&](const char* pattern, const auto& found) {
@@ -74,7 +73,7 @@ inline bool isNumber(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() && *end == '\0';
 }
 
-/// What to do about a relative path: nodes run in a folder of their own, and ~ is known to shells alone.
+/// Advice about a relative path: nodes run in another folder, and only shells expand ~.
 inline std::string wholePathOf(const std::string& file) {
   const char* home = std::getenv("HOME");
   const bool at_home = home && file.rfind("~/", 0) == 0;
@@ -82,8 +81,8 @@ inline std::string wholePathOf(const std::string& file) {
          (at_home ? home + file.substr(1) : (std::filesystem::current_path() / file).string());
 }
 
-/// Why this cannot be the argument's value; empty if nothing speaks against it. Its text lists the words
-/// there are ("one of a, b; ..") or wants a whole path; else the default tells a switch and a number.
+/// Why this cannot be the argument's value; empty if it can. The argument's doc lists the allowed words ("one
+/// of a, b; ..") or asks for a whole path; otherwise the default shows whether it is a switch or a number.
 inline std::string whyNot(const LaunchArgument& argument, const std::string& value) {
   std::smatch listed;
   const bool is_switch = argument.standard == "true" || argument.standard == "false";
@@ -103,8 +102,8 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
   return wholePathOf(value);
 }
 
-/// The launch file in `folder` that roslaunch is given; empty if these are not the words of roslaunch, or it
-/// is another.
+/// The launch file in `folder` given to roslaunch; empty if the words are not those of roslaunch, or name
+/// another file.
 inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
                                           const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
@@ -132,23 +131,24 @@ inline std::vector<std::pair<std::string, std::string>> assignmentsIn(const std:
   return given;
 }
 
-/// One file, or several with blanks between.
+/// One file, or several separated by blanks.
 inline std::vector<std::string> filesIn(const std::string& files) {
   if (std::filesystem::exists(files)) return {files};
   std::istringstream stream(files);
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Why an argument whose text wants this kind of file cannot be this one; empty if nothing speaks against it.
+/// Why this file does not suit an argument whose doc asks for a kind of file; empty if it does.
 inline std::string whyNotFile(const std::string& doc, const std::string& file) {
-  if (file[0] != '/') return "";  // is refused as a relative path
+  if (file[0] != '/') return "";  // refused elsewhere as a relative path
   if (!std::filesystem::exists(file)) return "no such file";
   const bool is_bag = beginningOf(file, 8) == "#ROSBAG ";
   return doc.rfind("existing bag ", 0) == 0 && !is_bag ? "is no bag file" : "";
 }
 
-/// What goes by the argument beside the nodes that read the file: the guard, rviz, a player of bags.
-/// \param given the argument, empty if none is \throws InputError if the file says another value
+/// Checks an argument that is also used outside the nodes reading the file: by the guard, rviz, or a bag
+/// player.
+/// \param given the argument, or empty \throws InputError if the file has another value
 inline void checkAgrees(const std::string& argument, const std::string& given, const std::string& file,
                         const std::string& key, const std::string& in_file) {
   if (given.empty() || given == in_file) return;
@@ -156,9 +156,8 @@ inline void checkAgrees(const std::string& argument, const std::string& given, c
                    given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
 }
 
-/// \throws InputError that names each file:/// and each file of arguments whose text wants an "existing" one,
-/// that is not there or is no bag, and each folder that is not there of those whose text says what comes
-/// "into" it
+/// \throws InputError that names each missing or unsuitable file (file:/// values, and arguments whose doc
+/// asks for an "existing" file or bag) and each missing folder (arguments whose doc says what goes "into" it)
 inline void checkFilesAreThere(const std::vector<std::string>& words, const std::filesystem::path& launch) {
   std::vector<std::string> faults;
   for (const auto& argument : argumentsOf(launch))
@@ -179,7 +178,7 @@ inline void checkFilesAreThere(const std::vector<std::string>& words, const std:
 }
 
 /// \param words of the command that starts this launch file
-/// \throws InputError with a line for each argument that cannot be
+/// \throws InputError with one line per invalid argument
 inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
   const auto known = argumentsOf(file);
   std::vector<std::string> names;
@@ -201,7 +200,7 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
   if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
 }
 
-/// The answer of a ROS master or node to one question; invalid if nobody is there.
+/// The answer of a ROS master or node to one request; invalid if there is none.
 inline XmlRpc::XmlRpcValue asked(const std::string& uri, const char* question, const char* of = nullptr) {
   std::smatch parts;
   XmlRpc::XmlRpcValue arguments, answer;
@@ -214,7 +213,7 @@ inline XmlRpc::XmlRpcValue asked(const std::string& uri, const char* question, c
   return answers ? XmlRpc::XmlRpcValue(answer[2]) : XmlRpc::XmlRpcValue();
 }
 
-/// The master that roslaunch, called with these words, will use.
+/// The master used by a roslaunch with these words.
 inline std::string masterOf(const std::vector<std::string>& words) {
   for (auto word = words.begin(); word != words.end(); ++word) {
     if ((*word == "-p" || *word == "--port") && word + 1 != words.end()) return "http://localhost:" + word[1];
@@ -230,7 +229,7 @@ inline bool startsNothing(const std::vector<std::string>& words) {
   });
 }
 
-/// \param words of roslaunch \throws InputError that names the first of these nodes that runs already
+/// \param words of roslaunch \throws InputError that names the first of these nodes that is already running
 inline void checkNoneRuns(const std::vector<std::string>& words, const std::vector<const char*>& nodes) {
   if (startsNothing(words)) return;
   const char* name_space = std::getenv("ROS_NAMESPACE");
@@ -245,7 +244,7 @@ inline void checkNoneRuns(const std::vector<std::string>& words, const std::vect
   }
 }
 
-/// All that is wrong, to be told at once.
+/// All faults, to be reported together.
 class InputFaults {
  public:
   template <typename Step>
@@ -263,7 +262,7 @@ class InputFaults {
   }
 
  private:
-  // Unless one that is told already says it, with more words before.
+  // Skips a fault whose text is part of one already listed.
   void add(const std::string& text) {
     const auto says_it = [&](const std::string& told) { return told.find(text) != std::string::npos; };
     if (std::none_of(texts_.begin(), texts_.end(), says_it)) texts_.push_back(text);

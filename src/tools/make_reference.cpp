@@ -37,12 +37,12 @@ class CornerClicks {
     cv::setMouseCallback(kWindow, onMouse, this);
   }
 
-  /// \return eight numbers, or nothing if the user gave up
+  /// \return eight numbers, or nothing if the user cancelled
   std::optional<std::vector<double>> run() {
     for (;;) {
       draw();
       const int key = cv::waitKey(30) & 0xff;
-      cv::setWindowTitle(kWindow, kNext[points_.size()]);  // what is asked for is on the screen by now
+      cv::setWindowTitle(kWindow, kNext[points_.size()]);  // by now the window is on the screen
       if (key == 'q' || key == 27) return std::nullopt;
       if (key == 'u' && !points_.empty()) points_.pop_back(), said_.clear(), dragged_ = -1;
       if (points_.size() < 4) continue;
@@ -71,7 +71,7 @@ class CornerClicks {
     dragged_ = static_cast<int>(points_.size()) - 1;
   }
 
-  // The second Enter saves all the same.
+  // A second Enter saves anyway.
   bool isDoubtful() {
     const tools::CornerFit beside = tools::besideEdges(image_, flat(points_));
     const std::string asked = beside.said + ". Enter saves all the same";
@@ -108,7 +108,7 @@ class CornerClicks {
     cv::imshow(kWindow, canvas);
   }
 
-  // Beside the image, so that no corner is ever covered: what is under the mouse, and what everything means.
+  // Beside the image, so that no corner is covered: the area under the mouse, and a legend.
   void drawPanel(cv::Mat panel) const {
     cv::Mat part, lens;
     cv::getRectSubPix(image_, cv::Size(kLens, kLens),
@@ -137,7 +137,7 @@ class CornerClicks {
   }
 
   static constexpr const char* kWindow = "make_reference";
-  // What the title asks for, by the number of corners there are.
+  // Instruction in the title, by the number of corners set.
   static constexpr const char* kNext[] = {
       "click the top left inner corner of the opening", "click the top right inner corner",
       "click the bottom right inner corner", "click the bottom left inner corner",
@@ -152,7 +152,7 @@ class CornerClicks {
   std::vector<cv::Point2d> points_;
   cv::Point2d at_{0.0, 0.0};
   int dragged_ = -1;
-  std::string said_;  // of the last fit
+  std::string said_;  // report of the last fit
 };
 
 struct Job {
@@ -207,7 +207,7 @@ int run(const Job& job) {
   else
     std::cout << beside.said << "\n";
   adapters::saveReference(job.output, reference);
-  const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it
+  const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run as the user called it
   std::cout << "written: " << files.image.string() << "\nlook at: " << files.understood.string()
             << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
             << "roslaunch window_ingress px4.launch window_size:=W,H config:=" << files.overlay

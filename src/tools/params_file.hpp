@@ -1,4 +1,4 @@
-/// What the file behind --params holds for tools that look at images.
+/// Contents of the --params file for tools that process images.
 #pragma once
 
 #include <fstream>
@@ -11,12 +11,12 @@
 
 namespace window_ingress::tools {
 
-/// Of a reference that has no corners.
+/// Warning for a reference without corners.
 constexpr const char* kGuessedOpening =
     "the opening in the reference image is guessed, often wrongly: give its corners; 'ingress reference' "
     "finds and writes them";
 
-/// The reference of the file, unless one was given by its own options. \throws InputError
+/// Takes the reference from the file, unless options give one. \throws InputError
 inline void takeReference(const std::string& file, const configuration::ReferenceParams& kept,
                           std::string& image, std::vector<double>& corners) {
   if (!kept.corners.empty() && kept.corners.size() != 8)
@@ -26,7 +26,7 @@ inline void takeReference(const std::string& file, const configuration::Referenc
   corners = kept.corners;
 }
 
-/// The detector's parameters; image and corners of the reference, too. \throws InputError
+/// Reads the detector's parameters and the reference's image and corners. \throws InputError
 inline detection::DetectorParams readParams(const std::string& file, std::string& image,
                                             std::vector<double>& corners) {
   const configuration::Overlay overlay = configuration::readOverlay(file);
@@ -34,7 +34,7 @@ inline detection::DetectorParams readParams(const std::string& file, std::string
   return overlay.window_detector.detector;
 }
 
-/// The opening's size, "W,H", of an option. \throws InputError
+/// Takes the opening's size from an option "W,H". \throws InputError
 inline void takeWindowSize(const std::string& option, const std::string& text, estimation::PoseParams& pose) {
   const auto size = numbers(option, text, 2);
   pose.opening_width_m = size[0];
@@ -43,8 +43,8 @@ inline void takeWindowSize(const std::string& option, const std::string& text, e
   if (!faults.empty()) throw InputError(option + " " + text + ": " + parameters::joined(faults));
 }
 
-/// Writes all that differs from the defaults, so that it replaces the file that was started from.
-/// \return that \throws InputError
+/// Writes all values that differ from the defaults; the result replaces the original file.
+/// \return the same file \throws InputError
 inline std::string saveParams(const std::string& file, const std::string& about,
                               detection::DetectorParams params) {
   detection::DetectorParams defaults;

@@ -1,4 +1,4 @@
-/// Whether bags hold what replay.launch is to play from them.
+/// Checks whether bags hold the topics that replay.launch plays from them.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -15,8 +15,8 @@
 
 namespace window_ingress::tools {
 
-/// Types of messages by the topics that the bags have together; empty if one of them cannot be opened, which
-/// others say. \throws InputError for a damaged one: rosbag would read past its end
+/// Message types by topic over all bags; empty if one of them cannot be opened, which is reported elsewhere.
+/// \throws InputError for a damaged bag: rosbag would read past its end
 inline std::map<std::string, std::string> typesIn(const std::vector<std::string>& bags) {
   std::map<std::string, std::string> types;
   for (const auto& file : bags)
@@ -34,7 +34,7 @@ inline std::map<std::string, std::string> typesIn(const std::vector<std::string>
   return types;
 }
 
-/// What an argument of replay.launch has to be for a topic of this type; empty if it does not play such.
+/// The argument of replay.launch for a topic of this type; empty if it does not play this type.
 inline std::string argumentFor(const std::string& topic, const std::string& type) {
   static const std::map<std::string, std::string> names = {
       {"sensor_msgs/CameraInfo", "camera_info:="},
@@ -46,8 +46,8 @@ inline std::string argumentFor(const std::string& topic, const std::string& type
   return name == names.end() ? "" : name->second + topic;
 }
 
-/// \param played NAME=TOPIC with blanks between, NAME as the argument that says it
-/// \throws InputError that names each topic that no bag has, and what they have in its place
+/// \param played NAME=TOPIC separated by blanks, NAME being the launch argument
+/// \throws InputError that names each topic missing in all bags, and alternatives in them
 inline void checkPlayed(const std::string& files, const std::string& played) {
   const auto types = typesIn(filesIn(files));
   std::vector<std::string> faults;

@@ -1,4 +1,4 @@
-/// Detector, pose and filter over a bag; one csv row an image, and a plot. See --help.
+/// Detector, pose and filter over a bag; one csv row per image, and a plot. See --help.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -61,7 +61,7 @@ Options checked(Options o) {
 
 void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::endl; }
 
-// That of MAVROS is `map`; whoever names another one means it.
+// MAVROS uses `map`; a frame named by the user has precedence.
 void takeOdomFrame(const rosbag::Bag& bag, adapters::ReplayParams& params) {
   const std::string recorded = adapters::recordedOdomFrame(bag, params.topics.odom);
   std::string& frame = params.vehicle.frames.odom;
@@ -89,8 +89,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   return params;
 }
 
-/// The script lies beside this program when installed, in tools/ of the source tree when not. No shell in
-/// between.
+/// The script is next to this program if installed, otherwise in tools/ of the source tree. Uses no shell.
 void runScript(const std::string& name, const std::vector<std::string>& arguments) {
   const fs::path installed = fs::read_symlink("/proc/self/exe").parent_path() / name;
   const fs::path script =
@@ -110,7 +109,7 @@ void runScript(const std::string& name, const std::vector<std::string>& argument
     throw std::runtime_error(script.string() + " failed; is python3-matplotlib installed?");
 }
 
-/// rosbag reads past its buffers where an index is damaged; nothing can be caught, but it can be said.
+/// rosbag reads past its buffers if an index is damaged; this cannot be caught, only reported.
 void sayThatTheReaderCrashed(int) {
   constexpr char kText[] =
       "replay_bag: reading the bag crashed: it is damaged; see 'rosbag check' and 'rosbag reindex'\n";

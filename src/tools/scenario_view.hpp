@@ -1,4 +1,4 @@
-/// A scenario as its camera shows it: for pictures of what it looks like.
+/// A scenario as its camera shows it, for pictures.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,7 +8,7 @@
 
 namespace window_ingress::tools {
 
-/// From where; 0 m: as the scenario has it.
+/// Viewpoint; 0 m: the scenario's.
 struct ViewOptions {
   double distance_m = 0.0, off_axis_rad = 0.0;
 
@@ -22,7 +22,7 @@ struct ViewOptions {
   }
 };
 
-/// From the start or elsewhere, but looking at the window.
+/// Image from the start or another viewpoint, looking at the window.
 inline cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, const ViewOptions& view) {
   constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
   scenario.start.heading_rad = 0.0;

@@ -1,4 +1,4 @@
-/// What check_overlay asks of a parameter file about the sizes of opening and vehicle.
+/// Checks by check_overlay of the opening's and the vehicle's sizes in a parameter file.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,10 @@ inline bool saysOpening(const configuration::Overlay& overlay) {
   return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
 }
 
-// A drone does not fly by the size of somebody else's window.
+// A drone must not fly with the default window's size.
 inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& overlay, bool is_refused) {
   const auto& pose = overlay.homography_pose.pose;
-  const bool is_found_out = pose.scale_sigma > 0.0;  // in flight
+  const bool is_found_out = pose.scale_sigma > 0.0;  // measured in flight
   if (is_found_out || by_argument || saysOpening(overlay)) return;
   const std::string said =
       "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
@@ -37,7 +37,7 @@ inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& o
   warn(said + formatted("; taken for %g x %g m", pose.opening_width_m, pose.opening_height_m));
 }
 
-// A side that is not said is that of the default window.
+// A side that is not given keeps the default window's value.
 inline void checkBothSides(const configuration::Overlay& overlay) {
   const bool width = says(overlay, "homography_pose/pose/", {"opening_width_m"});
   const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
@@ -48,7 +48,7 @@ inline void checkBothSides(const configuration::Overlay& overlay) {
       width ? "opening_height_m" : "opening_width_m", width ? pose.opening_height_m : pose.opening_width_m));
 }
 
-// Nor, unsaid, by that of somebody else's vehicle.
+// A drone must not fly with the default vehicle's size either.
 inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
   if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
   const auto& vehicle = overlay.vehicle;
@@ -59,7 +59,7 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
 }
 
-/// Where the file says another vehicle or opening than the simulated world has; empty: nowhere.
+/// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.
 inline std::string otherSizes(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
   const auto differs = [&](const char* key, double said, double fact) {
     return overlay.said.count(key) != 0 && std::abs(said - fact) > 1e-6;
@@ -84,7 +84,7 @@ inline std::string otherSizes(const configuration::Overlay& overlay, const simul
                             "give a scenario with your sizes (window, vehicle)";
 }
 
-/// What will fly through what, for who mistyped a size.
+/// Sizes of vehicle and opening, so that the user notices a mistyped one.
 inline std::string understood(const configuration::Overlay& overlay) {
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;

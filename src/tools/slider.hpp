@@ -8,8 +8,8 @@
 
 namespace window_ingress::tools {
 
-/// A field on a slider with whole positions from 0 on: switches and small whole numbers one by one; ranges
-/// above zero of more than two decades by their logarithm, others evenly.
+/// A field on a slider with integer positions from 0. Switches and small integers have one position each,
+/// positive ranges of more than two decades are logarithmic, all others linear.
 class Slider {
  public:
   static constexpr int kSteps = 1000;  ///< at most
@@ -31,7 +31,7 @@ class Slider {
                                      : (inside - minimum_) / (maximum_ - minimum_);
     return static_cast<int>(std::lround(part * last_));
   }
-  double valueAt(int position) const {  ///< of the ends: minimum and maximum, exactly
+  double valueAt(int position) const {  ///< exactly minimum and maximum at the ends
     if (position <= 0) return minimum_;
     if (position >= last_) return maximum_;
     const double part = static_cast<double>(position) / last_;
@@ -42,7 +42,7 @@ class Slider {
 
  private:
   static constexpr double kTwoDecades = 100.0;
-  bool goes_by_ones_;  // holds whole numbers only
+  bool goes_by_ones_;  // holds integers only
   double minimum_, maximum_;
   bool logarithmic_;
   int last_ = kSteps;

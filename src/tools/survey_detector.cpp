@@ -69,7 +69,7 @@ std::vector<double> fixedDistances(const Options& o) {
   return o.at.empty() ? std::vector<double>() : risingDistances("--at", o.at);
 }
 
-// Of the i-th frame.
+// Range of views for the i-th frame.
 evaluation::ViewRange rangeOf(const Options& o, int i) {
   const std::vector<double> fixed = fixedDistances(o), range_m = risingDistances("--distance", o.distance);
   if (range_m.size() != 2) throw InputError("--distance: needs two distances");
@@ -87,7 +87,7 @@ void check(const Options& o) {
   if (!o.folders.empty() && !o.save.empty()) throw InputError("--save has no use with --load");
 }
 
-/// Looks for the window in one image after the other.
+/// Searches the window in one image after the other.
 class Survey {
  public:
   explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)), table_(binsOf(o)) {

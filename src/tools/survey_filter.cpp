@@ -48,7 +48,7 @@ void write(std::ostream& out, int run, const FilterSample& s) {
   out << ',' << s.width_error << ',' << s.width_sigma << ',' << s.apparent_width_m << ',' << s.nis << '\n';
 }
 
-/// All samples at which this much of the way was flown, one a run.
+/// All samples at which this distance was flown, one per run.
 class AtWay {
  public:
   explicit AtWay(double share) : share_(share) {}

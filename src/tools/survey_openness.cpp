@@ -1,4 +1,4 @@
-/// Measures the verdict on openness on approaches to windows that are open or closed; see --help.
+/// Measures the openness verdict on approaches to open and closed windows; see --help.
 #include <cmath>
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-/// Measures the pose from one image against the truth and beside OpenCV; see --help.
+/// Compares the pose from one image with the truth and with OpenCV; see --help.
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
@@ -94,7 +94,7 @@ int surveyNoise(const Options& o) {
   return 0;
 }
 
-/// Looks for the window in one image after the other, and estimates its pose.
+/// Searches the window in one image after the other and estimates its pose.
 class Chain {
  public:
   explicit Chain(const Options& o)

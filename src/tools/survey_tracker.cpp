@@ -56,7 +56,7 @@ detection::DetectorParams paramsOf(const Options& o) {
   return configuration::readOverlay(o.params).window_detector.detector;
 }
 
-/// What an attitude estimate says: a constant error and noise.
+/// An attitude estimate with a constant error and noise.
 class Attitude {
  public:
   explicit Attitude(std::uint32_t seed) : random_(seed, "attitude"), bias_(draw(kAttitudeBias_rad)) {}

@@ -1,5 +1,5 @@
-/// Fits thresholds of the detector to images whose windows are known, and says what that is worth on
-/// others. See --help.
+/// Fits detector thresholds to images with known windows, and reports the benefit on other images. See
+/// --help.
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -93,7 +93,7 @@ Images read(const Job& job) {
   return samples;
 }
 
-/// A line every two seconds.
+/// Prints a line every two seconds.
 class Progress {
  public:
   explicit Progress(int trials) : trials_(trials) {}

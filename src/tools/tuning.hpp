@@ -1,5 +1,4 @@
-/// What tune_detector turns its trackbars at, and where it has its images from: files, a bag, or a camera
-/// that runs.
+/// The detector that tune_detector adjusts, and its image source: files, a bag, or a live camera.
 #pragma once
 
 #include <ros/ros.h>
@@ -28,13 +27,13 @@
 
 namespace window_ingress::tools {
 
-/// Images with a place among them, or the newest of a camera.
+/// A list of images with a current one, or the newest image of a camera.
 class TuningSource {
  public:
   virtual ~TuningSource() = default;
-  virtual cv::Mat image() = 0;             ///< where we are; empty: none yet
+  virtual cv::Mat image() = 0;             ///< the current image; empty: none yet
   virtual std::string name() = 0;          ///< for people
-  virtual void step(int) {}                ///< to another place
+  virtual void step(int) {}                ///< to another image
   virtual int count() const { return 0; }  ///< 0: a camera
 };
 
@@ -93,7 +92,7 @@ inline void addFile(const std::filesystem::path& path, StoredImages& images) {
 }
 
 /// \param source image, folder, bag, or the name of a topic
-/// \param every, most of a bag: one image in so many, and no more than so many. \throws InputError
+/// \param every, most of a bag: take every n-th image of a bag, and at most this many. \throws InputError
 inline std::unique_ptr<TuningSource> openSource(const std::string& source, const std::string& image_topic,
                                                 int every, int most) {
   namespace fs = std::filesystem;
@@ -129,7 +128,7 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
 
 using parameters::Field;
 
-/// The detector with the settings of the moment.
+/// The detector with the current settings.
 class Bench {
  public:
   Bench(const detection::DetectorParams& start, std::optional<detection::ReferenceAppearance> reference)
@@ -146,7 +145,7 @@ class Bench {
   const std::vector<Field>& fields() const { return fields_; }
   void changed() { detector_.setParams(params_); }
 
-  /// \return one line: what was found, and what it cost
+  /// \return one line: what was found, and how long it took
   std::string look(const cv::Mat& image) {
     const double begun_sec = adapters::steadyNowSec();
     watch_.begin();

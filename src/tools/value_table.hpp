@@ -1,4 +1,4 @@
-/// The parameters of one group as an image: name, value and unit; what differs from the default stands out.
+/// The parameters of one group as an image: name, value and unit; changed values are highlighted.
 #pragma once
 
 #include <window_ingress/WindowDetectorConfig.h>
@@ -14,7 +14,7 @@
 
 namespace window_ingress::tools {
 
-/// Of a parameter of the detector, "edges/floor", as its description says; empty if it has none.
+/// Unit of a detector parameter ("edges/floor") from its description; empty if it has none.
 inline std::string unitOf(const std::string& field) {
   std::string name = field;
   std::replace(name.begin(), name.end(), '/', '_');
@@ -33,7 +33,7 @@ inline std::string valueOf(const parameters::Field& field) {
   return formatted("%.4g", field.get());
 }
 
-/// "edges/floor = 4.5 grey levels a pixel", with the default behind it where it is another one.
+/// "edges/floor = 4.5 grey levels a pixel", followed by the default if it differs.
 inline std::string valueText(const parameters::Field& field, const parameters::Field& as_default) {
   std::string text = field.name + " = " + valueOf(field);
   if (const std::string unit = unitOf(field.name); !unit.empty()) text += " " + unit;
