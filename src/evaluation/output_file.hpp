@@ -1,4 +1,4 @@
-/// Files that are written to their end, or somebody hears of it. Their folder is made if it is missing.
+/// Output files that report an incomplete write. Their folder is made if it is missing.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace window_ingress::evaluation {
 }
 
 inline void makeFolderOf(const std::filesystem::path& file) {
-  std::error_code ignored;  // then the file cannot be written either
+  std::error_code ignored;  // then writing the file fails, too
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
 }
 
@@ -34,7 +34,7 @@ class OutputFile : public std::ofstream {
   void check() const {
     if (!*this) cannotBeWritten(file_);
   }
-  /// Also after each row of a table that takes long: who breaks it off finds whole rows.
+  /// Also called after each row of a slow table, so that an aborted run leaves whole rows.
   void finish() {
     flush();
     check();
@@ -44,9 +44,9 @@ class OutputFile : public std::ofstream {
   std::filesystem::path file_;
 };
 
-/// An image as its pixels lie in the file; empty if it cannot be read as one.
+/// An image with unchanged pixels; empty if the file cannot be read as an image.
 inline cv::Mat imageOrNone(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return {};  // OpenCV warns by itself of a file that is not there
+  if (!std::filesystem::exists(file)) return {};  // OpenCV itself would print a warning about a missing file
   try {
     return cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
@@ -54,15 +54,15 @@ inline cv::Mat imageOrNone(const std::filesystem::path& file) {
   }
 }
 
-/// The same. \throws InputError that names it
+/// The same. \throws InputError that names the file
 inline cv::Mat readImage(const std::filesystem::path& file) {
   const cv::Mat image = imageOrNone(file);
   if (image.empty()) throw InputError(file.string() + ": cannot be read as an image");
   return image;
 }
 
-/// An image, in the format that the name says. \throws std::runtime_error that names it; InputError if it
-/// says none
+/// Writes an image in the format given by the name's extension. \throws std::runtime_error that names the
+/// file; InputError if there is no such format
 inline void writeImage(const std::filesystem::path& file, const cv::Mat& image,
                        const std::vector<int>& how = {}) {
   if (!cv::haveImageWriter(file.string()))

@@ -122,7 +122,7 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
       faults.add(faultAt(file, entry.first, place + "a key must be a word"));
     else if (!names.insert(entry.first.Scalar()).second)
       faults.add(faultAt(file, entry.first, path + entry.first.Scalar() + kSecondTime));
-    else if (entry.second.IsNull())  // its own mark is that of the next entry
+    else if (entry.second.IsNull())  // an empty value has the mark of the next entry
       faults.add(faultAt(
           file, entry.first,
           path + entry.first.Scalar() +

@@ -64,7 +64,7 @@ class FlyResults {
   void finish() {
     rows_.finish();
     tracks_.finish();
-    // Uses the numbers as written in the table, so that joined shards give the same bytes.
+    // Uses numbers as written in the table: joined shards give the same bytes.
     const auto flights = evaluation::readFlights(folder_.string());
     evaluation::OutputFile summary(folder_ / "summary.json");
     summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));

@@ -43,8 +43,8 @@ inline void takeWindowSize(const std::string& option, const std::string& text, e
   if (!faults.empty()) throw InputError(option + " " + text + ": " + parameters::joined(faults));
 }
 
-/// Writes all values that differ from the defaults; the result replaces the original file.
-/// \return the same file \throws InputError
+/// Writes all detector values that differ from the defaults, so that the file replaces the one loaded before.
+/// \return the yaml text written \throws InputError
 inline std::string saveParams(const std::string& file, const std::string& about,
                               detection::DetectorParams params) {
   detection::DetectorParams defaults;

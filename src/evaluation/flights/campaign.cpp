@@ -16,7 +16,7 @@ std::optional<std::uint32_t> parseNumber(const std::string& text) {
   return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 10));
 }
 
-/// Hands seeds out to threads and results on in order.
+/// Gives seeds to threads and passes results on in order.
 class Queue {
  public:
   Queue(const std::vector<std::uint32_t>& seeds, const Fly& fly, const Report& report)

@@ -147,8 +147,8 @@ void Flight::look(const simulation::CameraFrame& frame) {
   timing_.lap(Stage::kPose);
 }
 
-// What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
-// and then starts the mission. Without images the target alone is seen.
+// Acts as the scenario's operator: selects the target as soon as it is in the memory of all windows, then
+// starts the mission. Without images only the target is seen.
 void Flight::chooseTarget() {
   was_chosen_ = was_chosen_ || !world_.scenario().target_chosen || params_.without_images;
   if (was_chosen_) return;

@@ -16,25 +16,25 @@
 
 namespace window_ingress::evaluation {
 
-/// Everything that flies: what a user's file says to the nodes; what it does not say of vehicle and opening
-/// is taken from the world.
+/// Parameters of a flight: the nodes' from a user's file; values of vehicle and opening that it does not give
+/// come from the world.
 struct FlightParams : configuration::Overlay {
-  bool without_images = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn
+  bool without_images = false;  ///< `ProjectedDetector` detects the window, no image is rendered
 };
 
-/// The parameters with what is known of the vehicle and its target before the flight.
+/// The parameters, completed by what is known of the vehicle and its target before the flight.
 FlightParams withFactsOf(const simulation::World& world, FlightParams params);
 
-/// Where the time of a closed-loop flight goes.
+/// Stages of a closed-loop flight whose time is measured.
 enum class Stage { kPhysics, kImage, kDetector, kPose, kNavigator, kOther };
 constexpr std::size_t kStages = 6;
 
-/// Wall time by stage. Looks on; a flight is the same with and without.
+/// Wall time by stage. Does not change the flight.
 class FlightTiming {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Everything since the last call belonged to this stage.
+  /// Adds the time since the last call to this stage.
   void lap(Stage stage) {
     const auto now = Clock::now();
     spent_sec_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
@@ -53,7 +53,7 @@ class FlightTiming {
   double simulatedSec() const { return simulated_sec_; }
   long frames() const { return frames_; }
 
-  /// A table for people: milliseconds a frame and share of each stage, times real time.
+  /// A table for people: milliseconds per frame and share of each stage, and speed over real time.
   std::string table() const {
     const double total_sec = std::max(totalSec(), 1e-9);
     const double frames = static_cast<double>(std::max(frames_, 1L));
@@ -76,12 +76,12 @@ class FlightTiming {
   Clock::time_point last_ = Clock::now();
 };
 
-/// One flight in one process, by the objects that the nodes use: the world's images through detector, pose
-/// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
-/// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
-/// from the world, unless the operator says otherwise. \param timing the flight's is added to it \throws
-/// InputError, std::invalid_argument (parameters), std::runtime_error (no renderer). Without
-/// images, observers are not shown any.
+/// One flight in one process with the objects that the nodes use: the world's images go through detector,
+/// pose and filter to the navigator, and its setpoints go back. Deterministic: scenario, seed and parameters
+/// give a bit-identical result. Opening size, vehicle body and camera come from the world unless the operator
+/// gives others. Without images, observers get none.
+/// \param timing the times of this flight are added
+/// \throws InputError, std::invalid_argument (parameters), std::runtime_error (no renderer)
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
                      const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);
 

@@ -6,7 +6,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-// Of the vehicle, as far as the operator does not say otherwise.
+// Sets the vehicle's values that the operator does not give.
 void tellVehicle(const simulation::World& world, const std::set<std::string>& said,
                  navigation::VehicleParams& vehicle) {
   const auto tell = [&](const char* name, double& value, double fact) {
@@ -26,13 +26,13 @@ void tellVehicle(const simulation::World& world, const std::set<std::string>& sa
 
 void tellOpening(const simulation::World& world, const std::set<std::string>& said,
                  estimation::PoseParams& pose) {
-  if (pose.scale_sigma > 0.0 || pose.aspect_sigma > 0.0) return;  // to be found out
+  if (pose.scale_sigma > 0.0 || pose.aspect_sigma > 0.0) return;  // size to be estimated in flight
   const auto isSaid = [&](const char* name) { return said.count(name) > 0; };
   if (!isSaid("homography_pose/pose/opening_width_m")) pose.opening_width_m = world.opening().width_m;
   if (!isSaid("homography_pose/pose/opening_height_m")) pose.opening_height_m = world.opening().height_m;
 }
 
-// Of what the scenario says for lack of somebody to be asked.
+// Sets the policy from the scenario, because there is no operator to ask.
 void tellPolicy(const simulation::Scenario& scenario, const std::set<std::string>& said,
                 navigation::CommitParams& commit) {
   const auto tell = [&](const char* name, std::string& value, const std::string& policy) {
@@ -51,7 +51,7 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   params.homography_pose.tracker.needed = configuration::neededBy(navigator.vehicle);
   tellOpening(world, params.said, params.homography_pose.pose);
   tellPolicy(world.scenario(), params.said, navigator.commit);
-  if (params.without_images)  // nothing shows it
+  if (params.without_images)  // no image shows it
     navigator.commit.glass = "excluded", navigator.commit.unverified_opening = "allow";
   return params;
 }

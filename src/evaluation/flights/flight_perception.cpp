@@ -23,7 +23,7 @@ void FlightPerception::addAttitude(double stamp_sec, const Eigen::Quaterniond& R
   attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
 }
 
-// Where the target is expected is said with the pose of an image, and heard with the next one.
+// The expected place of the target is computed with the pose of one image and used for the next one.
 const std::optional<detection::WindowObservation>& FlightPerception::detect(
     const cv::Mat& image, double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera) {
   detection::TrackInput seen;

@@ -13,31 +13,30 @@
 
 namespace window_ingress::evaluation {
 
-/// What a flight in one process, or a recorded one, sees and knows of its target, put together as the nodes
-/// do it between them. It takes everything in the order in which it comes.
+/// Perception of a flight in one process, or of a recorded one: detector, pose and filter connected as the
+/// nodes are. Processes inputs in the order of arrival.
 class FlightPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
   explicit FlightPerception(const configuration::Overlay& nodes);
 
   void setReference(const detection::ReferenceAppearance& reference) { perception_.setReference(reference); }
-  /// None, or one that cannot be used, withdraws the one before.
+  /// No calibration, or an unusable one, removes the previous one.
   void calibrate(const std::optional<geometry::PinholeCamera>& camera);
-  /// \return its stamp by the clock of the receiver
+  /// \return its stamp in the receiver's clock
   double addOdometry(const navigation::VehicleState& vehicle, double arrival_sec);
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
   bool knowsAttitude(double stamp_sec) const {
     return attitude_.at(stamp_sec, kMaxAttitudeGapSec).has_value();
   }
 
-  /// What the detector makes of an image.
+  /// Result of the detector for an image.
   const std::optional<detection::WindowObservation>& detect(
       const cv::Mat& image, double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera);
-  /// What was seen in an image, by the detector or otherwise, goes on to the target; not without a
-  /// calibration.
+  /// Passes an observation, from the detector or elsewhere, on to the target; only with a calibration.
   void see(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
            const std::optional<detection::WindowObservation>& window);
-  /// All but parameters and reference.
+  /// Forgets all but parameters and reference.
   void forget();
 
   const perception::WindowPerception& perception() const { return perception_; }
@@ -52,7 +51,7 @@ class FlightPerception {
   estimation::PoseBuffer attitude_;
   estimation::SenderClock odometry_clock_;
   estimation::TargetEstimator tracker_;
-  std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
+  std::optional<geometry::PinholeCamera> camera_;  // from the last camera_info
   std::optional<double> last_seen_sec_;
 };
 

@@ -35,7 +35,7 @@ void write(cv::Mat& image, const std::string& text, cv::Point at, double size = 
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, kBlack, 1, cv::LINE_AA);
 }
 
-// One plane of the window's frame on a part of the image, x to the right.
+// One plane of the window's frame, drawn on a part of the image with x to the right.
 class Plane {
  public:
   // `axis`: 1 for y (left is up), 2 for z

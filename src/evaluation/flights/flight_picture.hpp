@@ -17,13 +17,13 @@ struct WallOutline {
   double thickness_m = 0.26;
 };
 
-/// All ways flown, seen from above (upper part) and from the right side (lower part), coloured by outcome, in
-/// the window's frame: the wall at x = 0, outside below 0. CV_8UC3.
+/// All tracks, seen from above (upper part) and from the right side (lower part), coloured by outcome, in the
+/// window's frame: the wall at x = 0, outside at x < 0. CV_8UC3.
 cv::Mat drawTracks(const std::vector<FlightResult>& flights, const WallOutline& wall,
                    const std::string& title);
 
-/// Keeps what the camera saw, with the detector's drawing on it: the first image of each state of the
-/// navigator, and the last one of all.
+/// Keeps camera images with the detector's drawing on them: the first of each state of the navigator, and the
+/// very last one.
 class FlightStrip : public FlightObserver {
  public:
   static constexpr std::size_t kMax = 11;  ///< images besides the last one
@@ -32,7 +32,7 @@ class FlightStrip : public FlightObserver {
                const std::optional<detection::WindowObservation>& window) override;
   void onStep(const FlightRecord& record, const navigation::NavigatorOutput& output) override;
 
-  /// All of them with time and state below the flight's track. CV_8UC3; empty if there was no image.
+  /// All kept images with time and state, below the flight's track. CV_8UC3; empty if there was no image.
   cv::Mat draw(const FlightResult& flight, const WallOutline& wall) const;
 
  private:

@@ -66,7 +66,7 @@ FlightResult flightOf(const CsvReader& row) {
   return flight;
 }
 
-/// As one field of one line.
+/// The text as one field of one line.
 std::string lineOf(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return csvField(text);

@@ -7,12 +7,12 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr int kPoints = 64;  // along a side, at which it is asked whether it is in the image
+constexpr int kPoints = 64;  // along a side, each checked for being in the image
 
-/// The stretch of a side that lies in the image.
+/// The part of a side that lies in the image.
 struct Stretch {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
-  int first = -1, last = -1;  ///< of its points; -1: none
+  int first = -1, last = -1;  ///< indices of its points; -1: none
   bool hasStart() const { return first == 0; }
   bool hasEnd() const { return last == kPoints; }
   double lengthPx() const { return first < 0 ? 0.0 : (b - a).norm(); }

@@ -8,7 +8,7 @@
 
 namespace window_ingress::evaluation {
 
-/// The same with three channels.
+/// The image with three channels.
 inline cv::Mat coloured(const cv::Mat& image) {
   if (image.channels() != 1) return image.clone();
   cv::Mat result;

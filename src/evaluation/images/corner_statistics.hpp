@@ -8,7 +8,7 @@
 
 namespace window_ingress::evaluation {
 
-/// How far found corners lie from the true ones, over many images. Both in canonical order, in pixels.
+/// Errors of found corners over many images. Found and true corners are in canonical order, in pixels.
 class CornerStatistics {
  public:
   void add(const geometry::Quadrilateral& found, const geometry::Quadrilateral& truth);

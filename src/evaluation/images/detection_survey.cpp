@@ -16,7 +16,7 @@ using geometry::Quadrilateral;
 
 constexpr double kOnBorderIou = 0.8;
 
-// Of the candidates that lie on the true border, the one that got farthest.
+// The candidate on the true border that got furthest.
 std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Quadrilateral& truth) {
   double best = kOnBorderIou;
   const detection::CandidateTrace* found = nullptr;

@@ -14,22 +14,22 @@
 
 namespace window_ingress::evaluation {
 
-/// What the detector made of one image.
+/// Result of the detector for one image.
 enum class SurveyVerdict {
   kHit,          ///< the inner border, every corner within `hitTolerance`
   kInexact,      ///< the inner border, but a corner is farther away
-  kOuterBorder,  ///< the outer border of the frame taken for it
-  kFarBorder,    ///< the border in the room, at the wall's back, taken for it
-  kWrongTarget,  ///< something else taken for it
+  kOuterBorder,  ///< the outer border of the frame instead
+  kFarBorder,    ///< the border in the room, at the wall's back, instead
+  kWrongTarget,  ///< something else instead
   kMissed,       ///< nothing found
-  kNothing,      ///< nothing found where there is nothing
-  kFalseAlarm    ///< something found where there is nothing
+  kNothing,      ///< nothing found, no window present
+  kFalseAlarm    ///< something found, no window present
 };
 constexpr int kSurveyVerdicts = static_cast<int>(SurveyVerdict::kFalseAlarm) + 1;
 const char* toString(SurveyVerdict verdict);
 
-/// Which of the window's borders a quadrilateral is: the one whose corners are nearest in the mean, if it
-/// covers half of their union at least.
+/// The window's border that a quadrilateral matches: the one with the nearest corners on average, if their
+/// intersection is at least half of their union.
 SurveyVerdict judge(const std::optional<geometry::Quadrilateral>& found, const SurveyTruth& truth);
 
 /// One image of the survey.
@@ -40,8 +40,8 @@ struct SurveyResult {
   SurveyTruth truth;
   std::optional<detection::WindowObservation> window;
   SurveyVerdict verdict = SurveyVerdict::kMissed;
-  std::string outcome;  ///< of the whole image, for people
-  /// What stopped the best candidate that lies on the inner border; "unseen" if none does.
+  std::string outcome;  ///< outcome of the whole image, for people
+  /// Gate that rejected the best candidate on the inner border; "unseen" if there is none.
   std::string true_candidate;
 };
 
@@ -49,15 +49,15 @@ SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::
                       const detection::DetectionTrace& trace, double milliseconds);
 
 std::string surveyColumns();
-std::string surveyRow(const SurveyResult& result);  ///< no line end
+std::string surveyRow(const SurveyResult& result);  ///< without line end
 
-/// Distances whose corners are measured together, in rising order.
+/// Range of distances whose corners are evaluated together, in rising order.
 struct DistanceBin {
   double nearest_m, farthest_m;
   std::string name() const;  ///< "2-3 m", or "2 m"
 };
 std::vector<DistanceBin> defaultBins();                                   ///< 2 to 3, 3 to 5 and 5 to 8 m
-std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m);  ///< one for each
+std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m);  ///< one bin each
 
 /// One scenario, or all of them.
 class SurveySummary {
@@ -68,15 +68,15 @@ class SurveySummary {
   int frames() const { return frames_; }
   int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
   double part(SurveyVerdict verdict) const;  ///< 0 to 1
-  /// Of the frames in which any border of the window was found: those with the inner one; 1 if there are
+  /// Part with the inner border among the frames in which any border of the window was found; 1 if there are
   /// none.
   double innerPart() const;
-  /// Of the hits whose distance is nearest to the i-th bin.
+  /// Corners of the hits whose distance is nearest to the i-th bin.
   const CornerStatistics& corners(std::size_t bin) const { return corners_.at(bin); }
   const std::vector<DistanceBin>& bins() const { return bins_; }
   const std::map<std::string, int>& misses() const {
     return misses_;
-  }  ///< by what stopped the true candidate
+  }  ///< by the gate that rejected the true candidate
   double medianMilliseconds() const;
 
  private:
@@ -90,13 +90,13 @@ class SurveySummary {
   std::vector<double> milliseconds_;
 };
 
-/// Scenarios in the order in which they came.
+/// Scenarios in the order of arrival.
 class SurveyTable {
  public:
   explicit SurveyTable(const std::vector<DistanceBin>& bins = defaultBins()) : bins_(bins) {}
   void add(const SurveyResult& result);
-  std::string csv() const;       ///< one row a scenario
-  std::string markdown() const;  ///< the same in two tables: what was found, and how exactly
+  std::string csv() const;       ///< one row per scenario
+  std::string markdown() const;  ///< the same in two tables: detections, and accuracy
 
  private:
   std::vector<DistanceBin> bins_;

@@ -32,7 +32,7 @@ std::string candidateValues(const CandidateTrace& candidate) {
   return text + csvCorners(candidate.quad, "%.3f");
 }
 
-// From 1; equals as they come.
+// Ranks from 1; equal candidates keep their order.
 template <typename Key>
 std::vector<int> placesBy(const std::vector<CandidateTrace>& all, const Key& key) {
   std::vector<int> order(all.size()), places(all.size());

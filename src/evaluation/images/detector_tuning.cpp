@@ -13,10 +13,10 @@ namespace {
 using parameters::Field;
 
 constexpr double kMinGain = 1e-6;
-constexpr double kNotWorth = 0.003;  // of merit: a key that brings less is left as it was
-constexpr double kLargestFactor = 5.0, kLargestPart = 0.5;  // of a move: of the value, of the range
+constexpr double kNotWorth = 0.003;                         // of merit: a change that gains less is undone
+constexpr double kLargestFactor = 5.0, kLargestPart = 0.5;  // of a move: factor, part of the range
 
-/// One field, moved in one way; the same move can be done again.
+/// One move of one field, which can be repeated.
 struct Move {
   std::size_t field = 0;
   double factor = 1.0, summand = 0.0;
@@ -58,7 +58,7 @@ class Search {
  private:
   double uniform(double low, double high) { return low + (high - low) * (random_() / 4294967296.0); }
 
-  // Numbers above zero are moved by a factor, others by a part of their range.
+  // Positive numbers move by a factor, others by a part of their range.
   Move draw() {
     Move move;
     move.field = random_() % fields_.size();

@@ -10,23 +10,23 @@
 namespace window_ingress::evaluation {
 
 struct TuningOptions {
-  /// Fields of `DetectorParams` that may be changed, by their whole names.
+  /// Fields of `DetectorParams` that may be changed, by their full names.
   std::vector<std::string> names;
-  int trials = 120;  ///< settings that are tried
+  int trials = 120;  ///< number of settings tried
   std::uint32_t seed = 1;
 };
 
-/// The fields that decide most about what is found: thresholds of edges, lines and shape, and the least
+/// The fields with the largest effect on detection: thresholds of edges, lines and shape, and the least
 /// scores.
 std::vector<std::string> usualFields();
 
-/// Called after each trial: how many are done, and the best so far on the images tuned on.
+/// Called after each trial with the number of trials done and the best result so far on the tuning images.
 using TuningProgress = std::function<void(int done, const DetectionCounts& best)>;
 
-/// Random coordinate search: one field after the other is moved, and the move kept if the merit grows; what
-/// worked is repeated. In the end each change without which the merit is the same is taken back.
-/// Deterministic. \return settings at least as good on these images as `start` \throws
-/// std::invalid_argument for a name that is none, or an empty list of images
+/// Random coordinate search: moves one field at a time, keeps the move if the merit grows, and repeats moves
+/// that worked. At the end, changes without effect on the merit are undone. Deterministic.
+/// \return settings at least as good on these images as `start`
+/// \throws std::invalid_argument for an unknown name or an empty list of images
 detection::DetectorParams tuneDetector(const std::vector<LabelledImage>& samples,
                                        const detection::DetectorParams& start,
                                        const detection::ReferenceAppearance* reference,

@@ -19,7 +19,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kOverlapPart = 0.05;  // of the merit: a whole image more counts for more
+constexpr double kOverlapPart = 0.05;  // of the merit: one more found image counts more
 
 // A video's neighbours differ in their last digit.
 std::string groupOf(const std::string& file) {
@@ -28,7 +28,7 @@ std::string groupOf(const std::string& file) {
   return stem;
 }
 
-/// Where the columns of an annotation are.
+/// Reads annotations by the names of their columns.
 class Annotations {
  public:
   explicit Annotations(const std::string& file) : rows_(file) {
@@ -140,7 +140,7 @@ std::optional<LabelledImage> labelled(const cv::Mat& image, const Eigen::Isometr
   sample.image = image;
   sample.camera = camera;
   const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
-  if (!quad || geometry::signedArea(*quad) <= 0.0) return sample;  // behind, or seen from behind
+  if (!quad || geometry::signedArea(*quad) <= 0.0) return sample;  // behind the camera, or seen from behind
   const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
   const auto corners = std::count_if(quad->begin(), quad->end(), inside);
   if (corners == 4) sample.targets.push_back(*quad);

@@ -15,24 +15,24 @@
 
 namespace window_ingress::evaluation {
 
-/// An image, and where the opening is in it.
+/// An image with the true place of the opening.
 struct LabelledImage {
-  std::string group;  ///< images that look alike, such as neighbours in a video, are of one group
+  std::string group;  ///< images that look alike, such as neighbours in a video, share a group
   cv::Mat image;      ///< CV_8UC1 or CV_8UC3
   std::vector<geometry::Quadrilateral> targets;  ///< inner borders; any of them may be found; none: no window
   std::optional<geometry::PinholeCamera> camera;
 };
 
-/// What the detector made of some images. Found: a detection whose overlap with a target is at least
-/// `kSameWindowIou`; any other detection is false.
+/// Results of the detector on several images. Found: a detection whose overlap with a target is at least
+/// `kSameWindowIou`; any other detection is wrong.
 struct DetectionCounts {
-  int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed`: of the images with a target
-  double overlap = 0.0;                  ///< sum of the overlaps of those found
+  int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed` count images with a target
+  double overlap = 0.0;                  ///< sum of the overlaps of the found ones
 
-  double recall() const;     ///< 1 where there is nothing to find
-  double precision() const;  ///< 1 where nothing was detected
+  double recall() const;     ///< 1 if there is nothing to find
+  double precision() const;  ///< 1 if nothing was detected
   double f1() const;         ///< harmonic mean of both
-  /// What a search may climb on: `f1`, and a little for better corners.
+  /// Merit for the search: `f1` plus a small share for better corners.
   double merit() const;
   /// "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision ..." with 95 % Wilson intervals
   std::string text() const;
@@ -42,19 +42,19 @@ DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
                                 const detection::DetectorParams& params,
                                 const detection::ReferenceAppearance* reference);
 
-/// Reads annotations: a csv file with columns file, x1, y1 .. x4, y4, in any order and beside others; a row a
-/// target, without numbers: no target in that image. Labels that begin with "pose_only_" are left out.
+/// Reads annotations: a csv file with columns file, x1, y1 .. x4, y4, in any order, among others; one row per
+/// target, without numbers if the image has none. Labels that begin with "pose_only_" are left out.
 /// \param folder where the images are
-/// \throws InputError that says what is wrong, and in which line
+/// \throws InputError that names the fault and its line
 std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder);
 
-/// An image of a window whose pose is known. Nothing if the image shows only a part of it.
+/// An image of a window whose pose is known. Nothing if the image shows only a part of the window.
 std::optional<LabelledImage> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
                                       const geometry::PinholeCamera& camera,
                                       const geometry::OpeningSize& opening);
 
-/// By groups, drawn by the seed: (the rest, `held_out` of the groups, at least one). \throws
-/// std::invalid_argument if there are fewer than two groups
+/// Random split by groups: (the rest, the part `held_out` of the groups, at least one).
+/// \throws std::invalid_argument if there are fewer than two groups
 std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
     const std::vector<LabelledImage>& samples, double held_out, std::uint32_t seed);
 

@@ -18,10 +18,10 @@ namespace {
 using detection::DetectorParams;
 
 constexpr int kSheetColumns = 3, kSmallest_px = 64;
-constexpr double kBackground = 0.35;  ///< brightness of the image behind what was found in it
+constexpr double kBackground = 0.35;  ///< brightness of the image behind the drawn results
 const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90);
 
-/// The level the search runs on, enlarged so that lines of one pixel remain fine.
+/// The search level, enlarged so that lines of one pixel stay thin.
 struct Canvas {
   explicit Canvas(const cv::Mat& level) {
     cv::resize(coloured(level), image, cv::Size(), kZoom, kZoom, cv::INTER_LINEAR);
@@ -104,7 +104,7 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
   detection::EdgeDetector edges(params.edges);
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
-  detection::UndistortionMap lens;  // no calibration: the image is taken as free of distortion
+  detection::UndistortionMap lens;  // no calibration: the image counts as free of distortion
   detection::EdgeDilation closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);

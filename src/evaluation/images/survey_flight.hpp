@@ -10,18 +10,18 @@
 
 namespace window_ingress::evaluation {
 
-/// The way of a camera to the window and what it does on it.
+/// Path and motion of a camera towards the window.
 struct FlightRange {
   double nearest_start_m = 4.0, farthest_start_m = 7.0;  ///< distance of the start from the opening [m]
-  double off_axis_rad = 0.5;  ///< of the start, to either side of the opening's normal, at most [rad]
-  double end_m = 0.4;         ///< before the plane of the opening [m]
+  double off_axis_rad = 0.5;  ///< largest angle of the start to either side of the opening's normal [rad]
+  double end_m = 0.4;         ///< end of the flight in front of the opening's plane [m]
   double speed_mps = 1.5;     ///< towards the plane [m/s]
-  double wobble_rad = 0.06;   ///< amplitude of roll, pitch and heading beside the way [rad]
+  double wobble_rad = 0.06;   ///< amplitude of roll, pitch and heading about the path [rad]
 };
 
 /// A flight towards the opening's middle, drawn from the seed: from the start it curves onto the axis, looks
-/// at the opening and wobbles about all axes, each at a rate of its own between 0.4 and 1.2 times a second.
-/// Continuous and smooth.
+/// at the opening and wobbles about all axes, each at its own frequency between 0.4 and 1.2 Hz. Continuous
+/// and smooth.
 class SurveyFlight {
  public:
   SurveyFlight(const FlightRange& range, std::uint32_t seed) : range_(range) {
@@ -37,7 +37,7 @@ class SurveyFlight {
     }
   }
 
-  /// Until the end before the plane.
+  /// Time until the end in front of the plane.
   double durationSec() const { return (-start_.x() - range_.end_m) / range_.speed_mps; }
   Eigen::Isometry3d T_window_camera(double time_sec) const {
     const double left = 1.0 - time_sec / durationSec();
@@ -71,7 +71,7 @@ class SurveyFlight {
   static constexpr double kSway_m = 0.05, kHeight_m = 0.4;
   static constexpr double kDifference_sec = 1e-4;
   static constexpr double kLooksAhead_m =
-      1.5;  // behind the plane: so that close to it the camera does not turn wildly
+      1.5;  // behind the plane, so that the camera does not turn fast near it
 
   struct Wobble {
     double amplitude, rate_radps, phase_rad;

@@ -9,7 +9,7 @@
 
 namespace window_ingress::evaluation {
 
-/// The images of a survey as files, so that detection can be measured again without drawing them again:
+/// The images of a survey as files, so that detection can be measured again without drawing them:
 /// `<scenario>_<seed>.png`, `.camera.yaml` (as camera_info_manager writes it) and, with a reference,
 /// `.reference.png` for each; truth.csv has one row each, in the order of `add`.
 class SurveyFolder {

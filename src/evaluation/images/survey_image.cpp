@@ -19,7 +19,7 @@ using simulation::RandomStream;
 constexpr int kViewTries = 20000;
 constexpr double kViewHeight_m = 0.4, kTilt_rad = 0.15, kSpeed_mps = 0.25, kTurn_radps = 0.08;
 constexpr double kMinHeight_m = 0.3;  // above the ground
-constexpr double kInFront_m = 0.004;  // of the border: what the line of sight must reach
+constexpr double kInFront_m = 0.004;  // of the border: the line of sight must reach this point
 constexpr int kPointsOfSide = 4;
 
 Vector3d spread(RandomStream& random, double sigma) {
@@ -85,7 +85,7 @@ bool showsWhole(const geometry::PinholeCamera& camera, const std::optional<geome
 
 constexpr double kSettling = 60.0;  // time constants of the automatic gains between two images
 
-// The gains follow what the image before showed: once the time between is long, they have settled.
+// The gains follow the previous image: after a long time between two images they have settled.
 cv::Mat expose(const simulation::Scenario& scenario, const simulation::Scene& scene,
                const simulation::CameraTruth& motion, std::uint32_t seed) {
   simulation::CameraSensor sensor(scene, scenario.camera, seed);

@@ -15,26 +15,26 @@
 
 namespace window_ingress::evaluation {
 
-/// Where a survey looks at the window from. Everything is drawn evenly between its ends.
+/// Viewpoints of a survey. All values are uniformly distributed between their limits.
 struct ViewRange {
   double nearest_m = 2.0,
          farthest_m = 8.0;  ///< horizontal distance of the camera from the opening's centre [m]
-  double off_axis_rad = 0.7853981633974483;  ///< to either side of the opening's normal, at most [rad]
-  double margin_px = 4.0;                    ///< the opening lies that far within the image, at least [px]
+  double off_axis_rad = 0.7853981633974483;  ///< largest angle to either side of the opening's normal [rad]
+  double margin_px = 4.0;                    ///< least distance of the opening from the image's border [px]
   bool still = false;                        ///< the camera does not move
 };
 
-/// A view of the window: where the camera is, and how it moves while it exposes.
+/// A view of the window: the camera's pose, and its motion during the exposure.
 struct SurveyView {
   double distance_m = 0.0, off_axis_rad = 0.0;
   simulation::CameraTruth motion;
 };
 
-/// Draws a view as a flight has it: 0.4 m above or below the opening's centre at most, tilted and rolled by
-/// up to 0.15 rad, moving at 0.25 m/s and turning at 0.08 rad/s a axis (standard deviations, at most twice
-/// that). The opening lies anywhere in the image, but whole; where there is none, the place where it would
-/// be. Views from which anything hides a part of its border are drawn again. The same seed gives the same
-/// view. \throws std::runtime_error if no such view is found
+/// Draws a random view as in a flight: at most 0.4 m above or below the opening's centre, tilted and rolled
+/// by up to 0.15 rad, moving at 0.25 m/s and turning at 0.08 rad/s per axis (standard deviations, at most
+/// twice that). The whole opening, or the place where it would be, lies anywhere in the image. Views in which
+/// something hides a part of the border are drawn again. The same seed gives the same view.
+/// \throws std::runtime_error if no such view is found
 SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scene& scene,
                     const geometry::PinholeCamera& camera, const ViewRange& range, std::uint32_t seed);
 
@@ -42,35 +42,35 @@ SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scen
 bool borderIsFree(const simulation::Mesh& mesh, const Eigen::Vector3d& eye,
                   const geometry::OpeningSize& opening);
 
-/// Image of a rectangle `behind_m` behind the plane of the window, around the same axis, as the shutter sees
-/// it: each corner at the time at which its row is exposed.
+/// Image of a rectangle `behind_m` behind the plane of the window, around the same axis, with a rolling
+/// shutter: each corner at the time its row is exposed.
 std::optional<geometry::Quadrilateral> projectMoving(const geometry::PinholeCamera& camera,
                                                      const simulation::CameraTruth& motion,
                                                      double readout_sec, const geometry::OpeningSize& size,
                                                      double behind_m);
 
-/// The borders of the window in one image, canonical order, in pixels of the image as it came.
+/// The borders of the window in one image, canonical order, distorted pixels.
 struct SurveyTruth {
-  bool present = true;            ///< false: there is no window, and the borders are those where it would be
-  geometry::Quadrilateral inner;  ///< front inner border of the opening: what is to be found
+  bool present = true;            ///< false: there is no window, the borders are those where it would be
+  geometry::Quadrilateral inner;  ///< front inner border of the opening, which is to be found
   std::optional<geometry::Quadrilateral> outer;  ///< outer border of its frame, if it has one
   geometry::Quadrilateral far;                   ///< border of the opening in the room, at the wall's back
 };
 
-/// Nothing unless all of the front inner border lies before the camera.
+/// Nothing unless all of the front inner border lies in front of the camera.
 std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, const simulation::Scene& scene,
                                        const geometry::PinholeCamera& camera,
                                        const simulation::CameraTruth& motion);
 
-/// One image with all that is known about it.
+/// One image with its truth.
 struct SurveyImage {
-  std::string scenario;  ///< name of its file, without folder and ending
+  std::string scenario;  ///< file name without folder and extension
   std::uint32_t seed = 0;
   double distance_m = 0.0, off_axis_rad = 0.0;
   SurveyTruth truth;
   geometry::PinholeCamera camera;
   cv::Mat image;
-  cv::Mat reference;  ///< the target as photographed; empty without
+  cv::Mat reference;  ///< the reference image; empty if there is none
   geometry::Quadrilateral reference_corners;
 };
 

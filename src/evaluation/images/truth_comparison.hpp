@@ -12,20 +12,20 @@
 
 namespace window_ingress::evaluation {
 
-/// When a detection is right.
-constexpr double kSameWindowIou = 0.7;   ///< from here on the right window was found
-constexpr double kOtherWindowIou = 0.5;  ///< below it something else was taken for the window
-/// Of each corner: 3 px or 2 % of the true border's mean side, whichever is more [px].
+/// Limits for a correct detection.
+constexpr double kSameWindowIou = 0.7;   ///< at least this: the right window was found
+constexpr double kOtherWindowIou = 0.5;  ///< below this: something else was detected as the window
+/// Tolerance of each corner: 3 px or 2 % of the true border's mean side, whichever is more [px].
 double hitTolerance(const geometry::Quadrilateral& truth);
 
-/// One image against the truth about it.
+/// One image compared with the truth.
 struct TruthErrors {
   bool whole = false;  ///< the image shows the opening whole, from its front
   double iou = 0.0;    ///< of the detected with the true quadrilateral, if the opening is seen from its front
   std::optional<geometry::Quadrilateral> truth;  ///< the opening's border, if seen from its front
   bool detected = false;
-  std::optional<geometry::Quadrilateral> found;  ///< what was detected, if all of its corners are seen
-  /// Of a detection that is not whole: its sides lie on the true ones, to `hitTolerance`.
+  std::optional<geometry::Quadrilateral> found;  ///< the detected quadrilateral, if all its corners are seen
+  /// For a partial detection: its sides lie on the true ones within `hitTolerance`.
   bool on_true_sides = false;
   double true_distance_m = 0.0;      ///< camera to the opening's centre
   double true_yaw_rad = 0.0;         ///< of the window's axis against the camera's, positive to the left
@@ -43,16 +43,16 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
 /// Many images.
 struct TruthSummary {
   int images = 0;
-  int whole = 0;      ///< images that show the opening whole
-  int found = 0;      ///< of those: the right window found
-  int exchanged = 0;  ///< of those: something else taken for the window
-  int partly = 0;     ///< images that do not show it whole, and in which it was found all the same
-  int imagined = 0;   ///< images that do not show it whole, and in which something else was taken for it
+  int whole = 0;             ///< images that show the opening whole
+  int found = 0;             ///< images of these in which the right window was found
+  int exchanged = 0;         ///< images of these in which something else was detected as the window
+  int partly = 0;            ///< images that do not show it whole, but in which it was found
+  int imagined = 0;          ///< images that do not show it whole, and in which something else was detected
   CornerStatistics corners;  ///< of the images that show the opening whole and in which it was found
   std::vector<double> yaw_errors_rad, distance_errors_m;  ///< magnitudes, of the same images
 
   void add(const TruthErrors& errors);
-  std::string text() const;  ///< one line a figure, for people
+  std::string text() const;  ///< one line per figure, for people
 };
 
 }  // namespace window_ingress::evaluation

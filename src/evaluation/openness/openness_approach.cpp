@@ -8,7 +8,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kSeen_px = 3.0;  // of each corner from the image's border
+constexpr double kSeen_px = 3.0;  // least distance of each corner from the image's border
 
 const geometry::OpeningSize kNeeded{0.6, 0.34};
 

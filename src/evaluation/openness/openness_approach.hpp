@@ -1,5 +1,4 @@
-/// An approach as those see it who survey openness: true camera poses, and what odometry, filter and detector
-/// say.
+/// An approach for surveys of openness: true camera poses with simulated odometry, filter and detector.
 #pragma once
 
 #include <optional>
@@ -22,11 +21,11 @@ class OpennessApproach {
   double timeSec(int step) const { return kFirstStamp_sec + step / range_.rate_hz; }
   simulation::CameraTruth motion(int step) const { return flight_.motion(step / range_.rate_hz); }
 
-  /// The opening's border as a detector sees it, with noise. Nothing if it is not whole in the image.
-  /// \param grown by so much of its size the border seen is larger than the true one
+  /// The opening's border as a detector measures it, with noise. Nothing if it is not whole in the image.
+  /// \param grown part of its size by which the measured border is larger than the true one
   std::optional<detection::WindowObservation> look(const geometry::PinholeCamera& camera, int step,
                                                    double grown = 0.0);
-  /// Shows the judge a window, with noisy odometry and a filtered window that is a little off.
+  /// Passes a window to the judge, with noisy odometry and a slightly wrong filtered window.
   void judge(const detection::WindowObservation& window, const geometry::PinholeCamera& camera, int step);
   void note(int step, OpennessResult& result, const OpennessStep& each) const;
 

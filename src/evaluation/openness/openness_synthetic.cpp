@@ -14,9 +14,9 @@ using simulation::RandomStream;
 constexpr double kGrowth = 1.25, kOldest_sec = 4.0, kShared = 0.4, kMargin = 0.07;
 constexpr double kBoard_m = 0.02;     // behind the border
 constexpr double kDirty = 0.05;       // of the points on a pane of glass
-constexpr double kWrongWay_px = 4.0;  // of a point that is followed wrongly
+constexpr double kWrongWay_px = 4.0;  // of a wrongly tracked point
 
-/// What is seen within the border, in the window's axes.
+/// The scene within the border, in the window's axes.
 class Surfaces {
  public:
   Surfaces(Interior interior, const geometry::OpeningSize& opening, double reflectivity, RandomStream& random)
@@ -37,9 +37,9 @@ class Surfaces {
 
   double roomM() const { return depth_m_; }
 
-  /// What a sight through the border's plane meets; nothing where there is no texture.
+  /// Point hit by a line of sight through the border's plane; nothing if there is no texture.
   std::optional<Vector3d> meet(const Vector3d& eye, const Vector3d& front, RandomStream& random) const {
-    const Vector3d way = (front - eye) / (front.x() - eye.x());  // a metre deep
+    const Vector3d way = (front - eye) / (front.x() - eye.x());  // one metre deep
     const auto at = [&](double depth_m) { return Vector3d(front + depth_m * way); };
     switch (interior_) {
       case Interior::kPoster:
@@ -65,10 +65,10 @@ class Surfaces {
     return std::nullopt;
   }
 
-  /// The sight through the border's plane does not end at a board.
+  /// True if the line of sight through the border's plane does not end at a board.
   bool isFree(const Vector3d& front) const { return interior_ != Interior::kPartly || !onBoard(front); }
 
-  /// Where that is by now.
+  /// The point after its motion up to this time.
   Vector3d moved(const Vector3d& point, double time_sec) const {
     if (interior_ != Interior::kCurtain) return point;
     const double fold = wave_rad_m_ * point.y(), swing = std::sin(sway_rate_ * time_sec + 0.1 * fold);
@@ -109,7 +109,7 @@ class Surfaces {
   std::array<Thing, 4> things_;
 };
 
-/// Points within the border as a follower would hand them out.
+/// Points within the border as a tracker would deliver them.
 class SyntheticFollower {
  public:
   SyntheticFollower(Interior interior, const OpennessRange& range, const geometry::OpeningSize& opening,

@@ -10,7 +10,7 @@ namespace window_ingress::evaluation {
 namespace {
 
 constexpr double kEndM = 1.6;
-constexpr double kScaleSigma = 0.5, kAspectSigma = 0.3;  // of a size of which nothing is told
+constexpr double kScaleSigma = 0.5, kAspectSigma = 0.3;  // of an unknown size
 
 Eigen::Matrix4d uprightCovariance(const estimation::Matrix6d& covariance) {
   constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw

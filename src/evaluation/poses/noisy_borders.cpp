@@ -32,7 +32,7 @@ Eigen::Matrix2d covarianceOf(const detection::Edge& before, const detection::Edg
   return inverse * variances.asDiagonal() * inverse.transpose();
 }
 
-// Of all samples between two corners whose shifts by the parameters are `a` and `b`.
+// Information of all samples between two corners whose shifts by the parameters are `a` and `b`.
 Matrix7d informationOfBorder(const Vector7d& a, const Vector7d& b, double length_px, double sigma_px) {
   const Matrix7d mixed = a * b.transpose();
   return length_px / (sigma_px * sigma_px) *

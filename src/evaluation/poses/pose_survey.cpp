@@ -64,7 +64,7 @@ std::optional<Eigen::Isometry3d> byHomography(const std::vector<cv::Point2d>& im
 constexpr int kTries = 1000;
 constexpr double kMarginPx = 2.0;
 
-/// The estimator believes what the borders state and refuses as little as it can.
+/// The estimator trusts the borders' stated spreads and refuses as little as possible.
 estimation::WindowPoseEstimator estimatorFor(const PoseSurveySetup& setup) {
   estimation::PoseParams params;
   params.opening_width_m = setup.opening.width_m;

@@ -14,7 +14,7 @@
 
 namespace window_ingress::evaluation {
 
-/// Ours, and what others make of the four corners of a window of known size.
+/// Our method, and other methods on the four corners of a window of known size.
 enum PoseMethod {
   kOurs,
   kOursWithAttitude,
@@ -25,23 +25,24 @@ enum PoseMethod {
 constexpr int kFirstPeer = kIterative, kPoseMethods = kHomography + 1;
 const char* nameOfMethod(int method);
 
-/// `T_camera_window` by one of the others; nothing where it fails or gives numbers that are not finite.
-/// OpenCV's plane has x right, y down and z away from the viewer: with z towards the camera IPPE fails where
-/// the rotation is by exactly half a turn. \param corners canonical order, distorted
+/// `T_camera_window` by one of the other methods; nothing if it fails or gives numbers that are not finite.
+/// OpenCV's plane has x right, y down and z away from the viewer, because with z towards the camera IPPE
+/// fails for a rotation by exactly half a turn.
+/// \param corners canonical order, distorted
 std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrilateral& corners,
                                             const geometry::PinholeCamera& camera,
                                             const geometry::OpeningSize& opening);
 
-/// What the draws of a survey have in common.
+/// Settings common to all draws of a survey.
 struct PoseSurveySetup {
   geometry::PinholeCamera camera;
   geometry::OpeningSize opening;
-  double attitude_sigma_rad = 0.02;  ///< of the attitude that one of the methods is given
+  double attitude_sigma_rad = 0.02;  ///< of the attitude given to one of the methods
   double largest_bearing_rad = 0.2;  ///< of the window against the camera's axis, to either side
   double largest_tilt_rad = 0.1;     ///< of the camera, in pitch and in roll
 };
 
-/// f = 554 px at 640 x 480 pixels, an opening of 1 m by 1 m: what published bounds were computed for.
+/// f = 554 px at 640 x 480 pixels, an opening of 1 m by 1 m: the setup of published bounds.
 PoseSurveySetup usualSetup();
 
 struct PoseCell {
@@ -61,24 +62,23 @@ struct MethodErrors {
 struct PoseCellResult {
   PoseCell cell;
   int draws = 0;
-  double yaw_bound_rad = 0.0, lateral_bound_m = 0.0, sigma_u_rad = 0.0;  ///< root mean squares over the draws
+  double yaw_bound_rad = 0.0, lateral_bound_m = 0.0, sigma_u_rad = 0.0;  ///< rms over the draws
   std::array<MethodErrors, kPoseMethods> methods;
   int trusted = 0, trusted_wrong = 0;
-  double trusted_yaw_squares = 0.0;  ///< of ours, where the sign is trusted
-  /// Of ours, where the better of both solutions is taken: mean squared error over stated variance, 1 if
-  /// honest.
+  double trusted_yaw_squares = 0.0;  ///< our method, draws with a trusted sign
+  /// Our method, better one of both solutions: mean squared error over stated variance, 1 if consistent.
   double yaw_consistency = 0.0;
 
   bool signIsDecidable() const { return sigma_u_rad < cell.yaw_rad / 3.0; }
 };
 
-/// Random views of one cell: window to either side, turned either way, camera tilted. The same seed gives the
-/// same draws.
+/// Random views of one cell: window to either side and turned either way, camera tilted. Same seed, same
+/// draws.
 PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, int draws, std::uint32_t seed);
 
 std::string poseSurveyColumns();
-std::string poseSurveyRow(const PoseCellResult& result);  ///< no line end
-/// For people: what it reaches, and each method's yaw error over the bound.
+std::string poseSurveyRow(const PoseCellResult& result);  ///< without line end
+/// For people: the result of each cell, and each method's yaw error over the bound.
 std::string poseSurveyTable(const std::vector<PoseCellResult>& results);
 std::string poseSurveySummary(const std::vector<PoseCellResult>& results);
 

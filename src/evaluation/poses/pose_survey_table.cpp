@@ -12,7 +12,7 @@ double ratio(const PoseCellResult& result, int method) {
   return result.methods[method].yawRms() / result.yaw_bound_rad;
 }
 
-// Ours may lie above the best peer's by what chance alone gives two equal methods.
+// Ours may exceed the best peer by the random difference of two equal methods.
 bool isBestOrEqual(const PoseCellResult& result) {
   double best_peer = ratio(result, kFirstPeer);
   for (int method = kFirstPeer; method < kPoseMethods; ++method)

@@ -9,7 +9,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kFollowSec = 0.25;  // the velocity follows the wish
+constexpr double kFollowSec = 0.25;  // response time of the velocity to the command
 constexpr double kReachedM = 0.1;
 constexpr double kSwayHz = 0.4;
 
