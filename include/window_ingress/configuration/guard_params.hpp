@@ -10,7 +10,8 @@ struct GuardParams {
   double max_speed_mps = 1.2;              ///< a faster setpoint is a fault: zero is sent [m/s]
   double max_yaw_rate_radps = 1.0;         ///< a setpoint that turns faster is a fault: zero is sent [rad/s]
   double stop_streaming_after_sec = 10.0;  ///< zeros are sent for this long after valid input stops, then
-                                           ///< nothing, so that the autopilot's failsafe acts; 0: no end [s]
+                                           ///< nothing, so that the autopilot's failsafe acts; 0: zeros
+                                           ///< without end [s]
   bool lockstep = false;  ///< pass each input on at once and send nothing else; only for the simulated world
   std::string frame = "odom";  ///< frame_id of the zero setpoints sent before the first input
   template <typename Self, typename Visitor>

@@ -10,8 +10,8 @@ struct WorldNodeParams {
   std::string scenario;  ///< scenario file; empty: calm air, start five metres in front of the window
   int seed = 1;          ///< seed of everything that the scenario marks random
   std::string start_at = "scenario";  ///< position of the house: from the scenario, or, for a vehicle
-                                      ///< simulated elsewhere, in front of it at its first message and at
-                                      ///< each ~reset
+                                      ///< simulated elsewhere, in front of that vehicle at its first message
+                                      ///< and at each ~reset
   bool next_seed_at_reset = false;  ///< each ~reset takes the next seed: another flight of the same scenario
   double real_time_factor = 1.0;    ///< simulated time over real time, if the machine can keep up
   double wait_sec = 0.0;  ///< longest wait for subscribers to images and odometry before time starts [s]

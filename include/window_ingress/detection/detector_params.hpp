@@ -74,8 +74,8 @@ struct SegmentQuadsParams {
 struct CandidateGatesParams {
   double min_area = 0.003;         ///< least area of a candidate, in areas of the image (farthest window)
   double max_area = 0.90;          ///< largest area of a candidate, in areas of the image (nearest window)
-  double min_aspect = 0.2;         ///< width over height, as seen
-  double max_aspect = 3.5;         ///< width over height, as seen
+  double min_aspect = 0.2;         ///< least width over height of a candidate, as seen
+  double max_aspect = 3.5;         ///< largest width over height of a candidate, as seen
   double max_angle_rad = 0.85;     ///< largest deviation of a corner from 90 degrees (the largest yaw) [rad]
   double min_side_support = 0.45;  ///< least part of the weakest side that runs along straight edges
   double min_contrast = 2.0;       ///< least gradient of the weakest side [grey levels a pixel]
@@ -93,8 +93,10 @@ struct CandidateGatesParams {
 };
 
 struct AppearanceParams {
-  double max_distance = 0.5;   ///< upper bound of the limit on the target's Bhattacharyya distance; 0 to 1
-  double min_distance = 0.25;  ///< lower bound of the limit on the target's Bhattacharyya distance; 0 to 1
+  double max_distance = 0.5;   ///< the limit on the Bhattacharyya distance, from the reference, is never
+                               ///< above this; 0 to 1
+  double min_distance = 0.25;  ///< the limit on the Bhattacharyya distance, from the reference, is never
+                               ///< below this; 0 to 1
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -39,8 +39,8 @@ struct InputParams {
   double max_vehicle_age_sec = 0.35;  ///< older odometry stops the vehicle; so does a gap of 0.2 s [s]
   double max_target_age_sec = 0.3;    ///< a window estimate older than this stops the vehicle [s]
   double max_image_age_sec = 1.0;     ///< the search stops if no image was processed for longer than this [s]
-  double max_turned_rad = 0.7;        ///< angle between commanded and flown direction that ends the mission:
-                                      ///< setpoints and odometry differ in axes [rad]
+  double max_turned_rad = 0.7;        ///< angle between commanded and flown direction that ends the mission,
+                                      ///< because setpoints and odometry then differ in axes [rad]
   double max_target_jump_m = 0.4;  ///< a window that moves further than this in odom between two estimates is
                                    ///< accepted only after half a second at its new place [m]
   double max_future_sec = 0.2;     // not in `visit`: `VehicleParams::stamps` says it
@@ -85,7 +85,8 @@ struct AlignParams {
   double vertical_speed_mps = 0.5;  ///< maximum upward and downward speed [m/s]
   double yaw_gain_hz = 3.0;         ///< yaw rate per radian of bearing; keep it above the lateral gain [1/s]
   double min_distance_m = 2.0;  ///< closer to the window's plane than this, the vehicle moves away first [m]
-  double probe_amplitude_m = 0.5;  ///< height of a probe (up, back, down, back) for the window's yaw sign [m]
+  double probe_amplitude_m = 0.5;  ///< height of a probe (up, back, down, back) that finds the sign of the
+                                   ///< window's yaw [m]
   int max_probes = 4;              ///< height probes before the mission is given up
   double step_m = 0.25;            ///< length of a step of the stepped scheme [m]
   double step_pause_sec = 0.5;     ///< pause after a step of the stepped scheme [s]
@@ -108,7 +109,7 @@ struct AlignParams {
 struct ApproachParams {
   double speed_mps = 1.0;     ///< maximum forward speed [m/s]
   double max_wind_mps = 0.6;  ///< largest wind that setpoints compensate; 0: none [m/s]
-  double funnel_slope = 1.2;  ///< widening of the funnel for each metre before the commit line [m/m]
+  double funnel_slope = 1.2;  ///< widening of the funnel for each metre in front of the commit line [m/m]
   double sigma_factor = 3.0;  ///< standard deviations that must lie within the funnel and the clearance
   double patience_sec = 2.0;  ///< wait at the commit line for the commit criterion before backing off [s]
 
@@ -126,13 +127,14 @@ struct ApproachParams {
 struct CommitParams {
   double speed_mps = 0.95;       ///< maximum speed through the opening [m/s]
   double exit_distance_m = 1.2;  ///< distance behind the window's plane at which the vehicle stops [m]
-  double view_margin_m = 0.2;    ///< distance of the commit line from where the window leaves the view [m]
+  double view_margin_m = 0.2;    ///< distance of the commit line in front of where the window leaves the view
+                                 ///< [m]
   double max_blind_sec = 6.0;    ///< longest time without an image of the window in front of its plane; then
                                  ///< the vehicle turns back [s]
   std::string glass = "possible";  ///< excluded: the operator has made sure that the window has no glass;
                                    ///< possible: each COMMIT requires ~confirm_opening
-  std::string unverified_opening = "ask";  ///< policy for an opening not shown to be open; never fly at a
-                                           ///< closed one
+  std::string unverified_opening = "ask";  ///< policy for an opening not shown to be open; a closed one is
+                                           ///< never flown at
   double ask_sec = 30.0;                   ///< longest wait at the commit line for the operator's answer [s]
   double look_sec = 8.0;       ///< longest wait at the commit line for the opening to be verified [s]
   double look_aside_m = 0.25;  ///< sideways motion for parallax to verify the opening; at most the clearance

@@ -21,8 +21,8 @@ struct FrameNames {
 
 /// How old and how far ahead of the clock a message may be.
 struct StampLimits {
-  double max_age_sec = 0.5;     ///< older messages are refused [s]
-  double max_future_sec = 0.2;  ///< messages further ahead of the clock are refused [s]
+  double max_age_sec = 0.5;     ///< messages older than this are refused [s]
+  double max_future_sec = 0.2;  ///< messages further ahead of the clock than this are refused [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -48,7 +48,7 @@ struct VehicleParams {
   bool image_is_rectified = false;  ///< images are rectified: P of camera_info is used, not K and D
   double response_sec = 0.3;  ///< time from a setpoint until the velocity follows it, latency included [s]
   double braking_mps2 = 1.2;  ///< deceleration that can be relied upon [m/s^2]
-  double odom_drift_m_per_sqrt_sec = 0.01;  ///< odometry's random walk of position over time [m/sqrt(s)]
+  double odom_drift_m_per_sqrt_sec = 0.01;  ///< random walk of odometry's position over time [m/sqrt(s)]
   FrameNames frames;
   StampLimits stamps;
   std::optional<double> climb_response_sec;  ///< up and down; measured in flight, no parameter

@@ -2,7 +2,7 @@
 
 namespace window_ingress::openness {
 
-/// How the texture within the opening is tracked; see `InteriorKltTracker`.
+/// How the texture within the opening is tracked.
 struct InteriorKltParams {
   bool enabled = true;         ///< track the texture within the opening; without it no opening is verified
   int max_points = 50;         ///< number of corners tracked within the opening; each costs time
