@@ -1,5 +1,5 @@
-/// The mission's state machine as data: states, events, transitions. No guards, no times, no strings: whoever
-/// raises an event checks its conditions, the table only says where it leads.
+/// The mission's state machine as data: states, events, transitions. No guards, no times, no strings: the
+/// sender of an event checks its conditions, the table only says where it leads.
 #pragma once
 
 #include <array>

@@ -13,15 +13,15 @@ std::vector<std::string> keysOf(const std::vector<Field>& fields);
 
 /// "speeed_mps: unknown key; did you mean 'speed_mps'?"
 /// \param shown place of the key, for people
-/// \param path that nobody reads
-/// \param known all that somebody reads
+/// \param path the unknown key
+/// \param known all known keys
 std::string unknownKey(const std::string& shown, const std::string& path,
                        const std::vector<std::string>& known);
 
 /// Text after "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?". If no known key is similar, the
 /// text lists the keys that could stand there, if they are few; otherwise it is empty.
-/// \param path that nobody reads
-/// \param known all that somebody reads
+/// \param path the unknown key
+/// \param known all known keys
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known);
 
 }  // namespace window_ingress::parameters

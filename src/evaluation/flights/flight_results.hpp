@@ -34,7 +34,7 @@ struct FlightResult {
   double wrong_side_m = 0.0;              ///< largest sideways distance beyond the start, away from the axis
   double max_speed_mps = 0.0;
   double nearest_m = 0.0;  ///< lower bound of the smallest gap to anything solid but the ground
-  double blind_sec = 0.0;  ///< longest time without sight of the window before the plane
+  double blind_sec = 0.0;  ///< longest time without sight of the window in front of the plane
   std::optional<double> predicted_miss_m;  ///< predicted by the navigator at its last commit
   std::optional<estimation::ClockCheck::Offset>
       clock_offset;  ///< of images against odometry, as found in flight
