@@ -6,13 +6,13 @@
 namespace window_ingress::detection {
 namespace {
 
-/// A signed monomial; sign 0: none.
+/// A signed monomial; sign 0 means no term.
 struct Term {
   int x, y;
   float sign;
 };
 
-// What the eight parameters move a point by, in x and in y.
+// By how much each of the eight parameters moves a point in x and in y.
 constexpr Term kInX[8] = {{1, 0, 1.0F}, {0, 1, 1.0F}, {0, 0, 1.0F},  {0, 0, 0.0F},
                           {0, 0, 0.0F}, {0, 0, 0.0F}, {2, 0, -1.0F}, {1, 1, -1.0F}};
 constexpr Term kInY[8] = {{0, 0, 0.0F}, {0, 0, 0.0F}, {0, 0, 0.0F},  {1, 0, 1.0F},
@@ -48,7 +48,7 @@ std::optional<Eigen::Matrix3d> homographyOf(const Vector8f& p) {
   return change;
 }
 
-// The sums are in registers meanwhile.
+// Local copies of the sums stay in registers during the loop.
 void DerivativeSum::add(const float* monomials, const float* slopes_a, const float* slopes_b, int count) {
   Eigen::Array<float, 8, 1> sum_a = a, sum_b = b;
   for (int i = 0; i < count; ++i, monomials += 16) {

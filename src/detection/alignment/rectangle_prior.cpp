@@ -13,26 +13,24 @@ namespace {
 using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
-constexpr double kSkewSigma =
-    0.003;  ///< of the cosine between the sides: how well corners and camera are known
-constexpr double kBeyondASide = 0.05;  ///< of the camera, from a side, to be beyond it [sides]
+constexpr double kSkewSigma = 0.003;   ///< of the cosine between the sides, from errors of corners and camera
+constexpr double kBeyondASide = 0.05;  ///< distance at which the camera counts as beyond a side [sides]
 
-constexpr double kFocal = 0.9;  ///< of a camera without a calibration [longer image sides]
+constexpr double kFocal = 0.9;  ///< without a calibration [longer image sides]
 constexpr double kLogFocalSigma = 0.4,
-                 kCentreSigma = 0.2;  ///< of its logarithm; of the centre [focal lengths]
+                 kCentreSigma = 0.2;  ///< of the logarithm; of the centre [focal lengths]
 
 constexpr double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};  ///< corners of the opening
-constexpr double kLinePx = 0.05;  ///< how well the sides are known by which another is placed
+constexpr double kLinePx = 0.05;  ///< standard deviation of the known sides when the fourth is placed
 constexpr int kCompletingSteps = 4;
-constexpr double kVague =
-    0.03;  ///< standard deviation of the end of a side from which it is not placed [of its length]
+constexpr double kVague = 0.03;  ///< a side whose ends are less certain than this is not placed [its lengths]
 
 template <int kCount>
 using Sides = Eigen::Matrix<double, 3, kCount>;
 template <int kCount>
 using Slopes = Eigen::Matrix<double, 1, kCount>;
 
-// The two sides of the rectangle in the view, and what they say of its shape.
+// The two side directions of the rectangle as seen, and what they say about its shape.
 struct SeenRectangle {
   Eigen::Vector3d across, down;
   double width = across.norm(), height = down.norm();
@@ -57,14 +55,14 @@ geometry::PinholeCamera usualCamera(const cv::Size& image) {
                                                   2.0 * std::atan(0.5 * image.width / focal_px));
 }
 
-// What a change of the camera moves a side by: of its focal length's logarithm, of its centre in x and in y.
+// Derivatives of a side by the camera: by the focal length's logarithm, by the centre's x and y.
 Sides<3> byCamera(const Eigen::Vector3d& side) {
   Sides<3> slopes;
   slopes << -side.x(), -side.z(), 0.0, -side.y(), 0.0, -side.z(), 0.0, 0.0, 0.0;
   return slopes;
 }
 
-// Across a line.
+// Unit normal of a line.
 Eigen::Vector2d normalOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const Eigen::Vector2d along = (to - from).normalized();
   return {along.y(), -along.x()};
@@ -106,7 +104,7 @@ RectanglePrior::RectanglePrior(const cv::Size& image, const OpeningAspect& aspec
   camera_sigma_ = {kLogFocalSigma, kCentreSigma, kCentreSigma};
 }
 
-// Aspect and angle.
+// The two contradictions: in aspect and in angle.
 std::optional<std::array<RectanglePrior::Contradiction, 2>> RectanglePrior::contradictions(
     const Matrix3d& map) const {
   const Matrix3d view = inverse_camera_ * map;
@@ -142,7 +140,7 @@ double RectanglePrior::misfit(const Matrix3d& map) const {
   return std::sqrt(squares);
 }
 
-// The ends of the others stay on their lines.
+// The ends of the three other sides stay on their lines.
 std::optional<CompletedView> RectanglePrior::completed(const Matrix3d& map, int side) const {
   Quadrilateral from, to;
   if (!cornersOf(map, from)) return std::nullopt;
@@ -176,7 +174,7 @@ std::optional<CompletedView> RectanglePrior::completed(const Matrix3d& map, int 
   return view;
 }
 
-// The camera's place before the opening, from its centre: in its sides and from its plane.
+// (x, y): the camera's position relative to the opening's centre [sides]; away: its distance from the plane.
 std::array<SideView, 4> RectanglePrior::viewsOfSides(const Matrix3d& map) const {
   const Matrix3d view = inverse_camera_ * map;
   const Eigen::Vector3d across = view.col(0), down = view.col(1), centre = view.col(2);

@@ -16,26 +16,25 @@ using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
 constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
-constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of the level]
-constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
-constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
-constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
-constexpr double kMinAlike = 0.6;     ///< of the ring's correlation: a segment with less may be covered
-constexpr double kByChance = 0.1;     ///< of a correlation, where what does not fit is taken for covered
-constexpr double kThreeSides = 0.75;  ///< correlation of three sides, at least, that tell of the fourth
-constexpr double kContradicts = 1.5;  ///< misfit of a view of which a side may be wrong [sigma]
-constexpr double kHiddenSide = 0.05;  ///< by which the ring correlates better without one side that is hidden
-constexpr double kKnownAspect =
-    0.03;  ///< standard deviation of its logarithm, at most: three sides are enough
-constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
+constexpr double kStill_px = 0.04;  ///< a shorter step ends the alignment [px of the level]
+constexpr int kPatience = 5;        ///< the alignment ends after this many steps without a better correlation
+constexpr double kFurthest = 0.3;   ///< a corner may move this far from the start [mean sides]
+constexpr float kMinGain = 0.15F;   ///< segments with a smaller gain are not used
+constexpr double kMinAlike = 0.6;   ///< a segment below this part of the ring's correlation may be covered
+constexpr double kByChance = 0.1;   ///< correlation that arises by chance where misfits count as covered
+constexpr double kThreeSides = 0.75;   ///< least correlation of three sides that can determine the fourth
+constexpr double kContradicts = 1.5;   ///< misfit above which one side of a view may be wrong [sigma]
+constexpr double kHiddenSide = 0.05;   ///< gain in correlation without one side that shows it is hidden
+constexpr double kKnownAspect = 0.03;  ///< standard deviation of its logarithm for three sides to suffice
+constexpr float kFirstSpread = 0.2F;   ///< of the residuals, initially
 constexpr float kStepSpread = 0.06F,
-                kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
-constexpr double kMinCorrelation = 0.05;     ///< at a level, to go on
-constexpr double kDependent = 3.0;    ///< samples that share their noise, for one that has noise of its own
-constexpr float kDimRing = 40.0F;     ///< of a darker ring the noise shows in the logarithms [grey levels]
-constexpr double kLeastInView = 0.5;  ///< of the ring beside a side, or nothing is known of the side
-constexpr double kFloorPx = 0.03;     ///< no side is claimed to be known better than this
-/// Of a frame: how far it is out of true, and how far it stands out of the opening's plane [sides].
+                kPerspectiveSpread = 0.04F;  ///< prior of a step [sides]
+constexpr double kMinCorrelation = 0.05;     ///< needed at a level to continue
+constexpr double kDependent = 3.0;           ///< samples per independent noise value
+constexpr float kDimRing = 40.0F;     ///< the noise of a darker ring shows in the logarithms [grey levels]
+constexpr double kLeastInView = 0.5;  ///< least visible part of the ring for a side to be known
+constexpr double kFloorPx = 0.03;     ///< least standard deviation of a side
+/// Tolerances of a frame: out of true, and standing out of the opening's plane [sides].
 constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
 
 }  // namespace
@@ -50,7 +49,7 @@ void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geom
   leaves_out_ = prior_ && model.aspect()->log_sigma <= kKnownAspect;
 }
 
-// Where what does not fit is left out more correlates by chance.
+// Leaving out what does not fit raises the correlation by chance.
 double RingAlignment::beyondChance(double correlation) const {
   return view_.covered() ? correlation - kByChance : correlation;
 }
@@ -73,7 +72,8 @@ RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   return match;
 }
 
-// Of `count` samples, at most kMost. Channel by channel, without a branch: so they are worked off by fours.
+// `count` is at most kMost. The loops run per channel and without a branch, so that the compiler vectorizes
+// them by fours.
 RingAlignment::SlopeProducts RingAlignment::products(const RingSegment& segment, int begin, int count) const {
   const RingLevel& ring = view_.ring();
   const float outlier = robustFactor(spread_), gain = segment.gain, *weights = view_.weights() + begin;
@@ -95,7 +95,7 @@ RingAlignment::SlopeProducts RingAlignment::products(const RingSegment& segment,
   return p;
 }
 
-// Residuals with the segments' gains and offsets taken off, and the normal equations with both left free.
+// Residuals after removal of a segment's gain and offsets, and normal equations with both left free.
 void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right,
                                Matrix8f& explained) {
   DerivativeSum of_ring;  // derivatives times the ring's values
@@ -117,7 +117,7 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
   take(of_ring.vector(), segment.xx);
 }
 
-// Of the place that is looked at.
+// Reads the segments at the current place.
 void RingAlignment::readSegments() {
   segments_.clear(), parts_.clear();
   correlation_ = {};
@@ -130,7 +130,7 @@ void RingAlignment::readSegments() {
   }
 }
 
-// The change of the homography that takes off most of the residuals; none if nothing tells.
+// The change of the homography that removes most of the residuals; none if the samples do not determine one.
 std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
@@ -152,8 +152,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   return homographyOf(normal_.ldlt().solve(toward));
 }
 
-// Steps of Gauss and Newton; of all maps passed the one that fits best is kept, where the shape is known
-// without what may be covered.
+// Gauss-Newton steps. Keeps the map that fits best; where the shape is known, covered parts do not count.
 RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
                                 int most_steps) {
   RingMatch best;
@@ -179,7 +178,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   return best;
 }
 
-// Of the ring beside a side, at the place that was looked at last; all of it where the reference shows none.
+// Visible part of the ring beside a side, at the last place looked at; 1 where the reference shows none.
 double RingAlignment::partInView(int side) const {
   const int a_side = view_.ring().segmentCount() / 4;
   const int begin = view_.ring().segments[side * a_side], end = view_.ring().segments[(side + 1) * a_side];
@@ -188,7 +187,7 @@ double RingAlignment::partInView(int side) const {
   return end > begin ? static_cast<double>(seen) / (end - begin) : 1.0;
 }
 
-// From the spread of what is left over, and how flat and straight such frames are.
+// From the spread of the residuals, and the tolerances of frames.
 std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
   Quadrilateral quad;
@@ -242,7 +241,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   return found;
 }
 
-// Where three sides fit far better than all four something stands before the fourth; nothing otherwise.
+// The side that something covers: three sides fit far better without it. Nothing otherwise.
 std::optional<int> RingAlignment::hiddenSide() const {
   double most = std::max(kThreeSides, correlation_.value() + kHiddenSide);
   std::optional<int> hidden;

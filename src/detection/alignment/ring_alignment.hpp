@@ -16,48 +16,48 @@ namespace window_ingress::detection {
 
 /// Where the ring fits best.
 struct AlignedRing {
-  geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
+  geometry::Quadrilateral quad;  ///< order as the start, pixels of the raw image
   RingMatch match;
-  /// How well its sides are known, in that order; that of a frame from beyond which the camera looks is not,
-  /// nor one beside which less than half of the ring is in the image.
+  /// Uncertainty of the sides, in the same order. A side is unknown if the camera sees its frame from beyond
+  /// it, or if less than half of the ring beside it is in the image.
   std::array<SideSigma, 4> sides;
-  std::optional<int> hidden;  ///< side before which something stands: known by the three others alone
+  std::optional<int> hidden;  ///< covered side, known only through the three others
 };
 
-/// Compares the reference's ring with places in an image, and moves a quadrilateral to where it fits best:
-/// Gauss and Newton on the homography, inverse compositional, coarse to fine, with robust weights. A segment
-/// of the ring has a gain and, channel by channel, an offset of its own: exposure, white balance and cast
-/// shadows change nothing. Keeps its memory; one object a thread.
+/// Compares the reference's ring with places in an image, and moves a quadrilateral to where the ring fits
+/// best: Gauss-Newton on the homography, inverse compositional, coarse to fine, with robust weights. Each
+/// segment of the ring has its own gain, and its own offset per channel, so exposure, white balance and cast
+/// shadows have no effect. Keeps its memory; use one object per thread.
 class RingAlignment {
  public:
-  /// \param model, image outlive the comparisons \param camera null: the image is taken as free of distortion
-  /// \param covered something stands before the ring: what does not fit is left out from the beginning
+  /// \param model, image must outlive the comparisons \param camera null: the image has no distortion
+  /// \param covered something stands before the ring: samples that do not fit are left out from the start
   void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
            bool covered = false);
 
-  /// \param side_px resolution at which they are compared, at most [px a mean side]
+  /// \param side_px resolution of the comparison, at most [px per mean side]
   RingMatch compare(const geometry::Quadrilateral& quad, double side_px);
 
-  /// The same, and what it says where something stands before the ring: samples that differ far more than
-  /// most count less. In the dark at half the resolution, which averages the noise.
+  /// As `compare`, also where something stands before the ring: samples that differ far more than most count
+  /// less. Dark images are compared at half the resolution, which averages the noise.
   RingMatch judge(const geometry::Quadrilateral& quad, double side_px);
 
-  /// Nothing if it runs away from the start. \param finest_px, coarsest_px resolutions at which it ends and
-  /// begins: the coarser, the further off a start may be
+  /// Nothing if the alignment runs away from the start. \param finest_px, coarsest_px last and first
+  /// resolution: a coarser first one tolerates a start that is further off
   std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px,
                                    double coarsest_px);
 
-  /// Where the ring lies if this is no view of the opening because the edge of something before one side was
-  /// taken for its border: without that side. Nothing where all sides fit, or it does not help.
+  /// Realigns the ring without one side, where `quad` is no view of the opening because the edge of an object
+  /// before that side was mistaken for its border. Nothing where all sides fit, or where this does not help.
   std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& quad, double finest_px);
 
-  /// With this side where it must lie by the three others; nothing where the opening's shape is not known.
-  /// \param quad pixels of the image as it came, order as the reference's
+  /// The quadrilateral with this side placed from the others; nothing where the opening's shape is unknown.
+  /// \param quad pixels of the raw image, order as the reference's
   std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& quad, int side) const;
 
  private:
-  /// Weighted products of the slopes (a, b) of some samples, their residuals r and the ring's values x: of
-  /// all channels, and the slopes of each.
+  /// Weighted products of the samples' slopes (a, b), residuals r and ring values x, summed over all
+  /// channels; and the weighted slopes of each channel.
   struct SlopeProducts {
     static constexpr int kMost = 32;
     using Each = std::array<float, kMost>;
@@ -79,14 +79,14 @@ class RingAlignment {
   RingView view_;
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
-  bool leaves_out_ = false;    ///< what may be covered: a rectangle of known shape is known by three sides
-  std::optional<int> hidden_;  ///< side that is left out
+  bool leaves_out_ = false;    ///< covered parts: three sides determine a rectangle of known shape
+  std::optional<int> hidden_;  ///< side left out
   RingCorrelation correlation_;
   std::vector<RingSegment> segments_;
   std::vector<WeightedPart> parts_;
   std::vector<float> residuals_;
   Matrix8f normal_;       ///< of the last change
-  Matrix8f information_;  ///< of the best map, from its change and the spread of what was left
+  Matrix8f information_;  ///< of the best map, from its last change and the residual spread
   float spread_ = 0.1F;   ///< of the residuals
 };
 

@@ -7,16 +7,19 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
-constexpr double kRoughStartPx = 15.0;          ///< at which an alignment begins where a place is rough
-constexpr std::size_t kPlaces = 10;             ///< that are aligned
-constexpr std::size_t kPlacesSearched = 6;      ///< at most, without edges
-constexpr std::size_t kFinePlaces = 2;          ///< and of these, to the last
-constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
-constexpr double kSure = 0.85, kBehind = 0.3;   ///< a place found, and what promises so much less is left out
-constexpr double kHopeless = 0.15;              ///< of a place, where what does not fit is left out
-constexpr double kPale = 0.8, kUnsharp = 1.25;  ///< contrast, and how much more half the resolution shows
-constexpr double kProposalWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
+constexpr double kComparedPx = 20.0, kAlignedPx = 30.0,
+                 kFinestPx = 200.0;         ///< [px per mean side]
+constexpr double kRoughStartPx = 15.0;      ///< first resolution of an alignment from a rough place
+constexpr std::size_t kPlaces = 10;         ///< number of places aligned
+constexpr std::size_t kPlacesSearched = 6;  ///< number of places from a search without edges, at most
+constexpr std::size_t kFinePlaces = 2;      ///< number of these aligned at the finest resolution
+constexpr int kVariants = 2;                ///< rough loops per place from which an alignment starts
+constexpr double kSure = 0.85,
+                 kBehind = 0.3;     ///< sure score; after one, skip what promises less by kBehind
+constexpr double kHopeless = 0.15;  ///< correlation below which a covered place is skipped
+constexpr double kPale = 0.8,
+                 kUnsharp = 1.25;        ///< contrast when unsharp; its gain at half the resolution
+constexpr double kProposalWeight = 0.3;  ///< of the geometry score, while a comparison says little
 
 void sortByScore(std::vector<ScoredCandidate>& rivals) {
   std::stable_sort(rivals.begin(), rivals.end(),
@@ -25,7 +28,7 @@ void sortByScore(std::vector<ScoredCandidate>& rivals) {
 
 }  // namespace
 
-// What is promising first.
+// Orders the rivals, the most promising first.
 void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
   order_.clear();
   for (std::size_t i = 0; i < rivals.size(); ++i) {
@@ -70,7 +73,7 @@ std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough
   return rival;
 }
 
-// An image that is less sharp than the reference's shows less contrast, and more at half the resolution.
+// An image less sharp than the reference shows less contrast; at half the resolution it shows more.
 RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   RingMatch match = alignment_.judge(quad, kFinestPx);
   if (match.contrast >= kPale) return match;
@@ -80,7 +83,7 @@ RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   return match;
 }
 
-// Of all that come to lie about one place the best.
+// Keeps the best of all rivals that end at one place.
 void RingMatcher::keep(const ScoredCandidate& rival) {
   const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& kept) {
     return Sameness(kept.quad).samePlace(rival.quad);

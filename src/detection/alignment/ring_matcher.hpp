@@ -8,12 +8,12 @@
 
 namespace window_ingress::detection {
 
-/// Which rivals have round them what the reference shows round the opening, and where exactly: all are
-/// compared, the best are moved to where the ring fits best.
+/// Finds the rivals whose surroundings match the reference's, and their exact position: compares all rivals,
+/// then moves the best to where the ring fits best.
 class RingMatcher {
  public:
-  /// Resolutions at which an alignment begins: of borders that a search found, which may be off by some
-  /// pixels, and of borders that are followed [px a mean side].
+  /// First resolution of an alignment [px per mean side]: for borders from a search, which may be off by some
+  /// pixels, and for tracked borders.
   static constexpr double kFoundStartPx = 30.0, kFollowedStartPx = 100.0;
 
   /// See RingModel.
@@ -28,22 +28,22 @@ class RingMatcher {
   void forget() { model_.forget(), search_.forget(); }
   bool known() const { return model_.known(); }
 
-  /// From now on something stands before the ring, or nothing does. See RingAlignment.
+  /// Sets whether something stands before the ring. See RingAlignment.
   void setCovered(bool covered) { covered_ = covered; }
 
-  /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
-  /// correlation of every rival as it is. \param image CV_8UC3
+  /// Aligned rivals, best first, each place once; the score combines the correlations. Valid until the next
+  /// call. Stores the correlation of every rival before its alignment. \param image CV_8UC3
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
-  /// Where the ring may be, found without any edge, see RingSearch. \param image as above
+  /// Places where the ring may be, found without edges, see RingSearch. \param image CV_8UC3
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image, bool leaning = true);
 
-  /// Where it fits best near this place; nothing where it does not. \param coarsest_px one of the above
+  /// Best fit of the ring near this place; nothing where it does not fit. \param coarsest_px one of the above
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        const geometry::Quadrilateral& quad, double coarsest_px);
-  /// How well it fits there, in the image of the last call, also where that is less sharp than the
-  /// reference's.
+  /// Fit of the ring there, in the image of the last call; also for an image that is less sharp than the
+  /// reference.
   RingMatch judged(const geometry::Quadrilateral& quad);
 
   /// See RingAlignment.
@@ -63,8 +63,7 @@ class RingMatcher {
   RingAlignment alignment_;
   RingSearch search_;
   bool covered_ = false;
-  std::vector<std::pair<double, std::size_t>>
-      order_;  ///< by correlation before anything is moved; of `rivals`
+  std::vector<std::pair<double, std::size_t>> order_;  ///< correlation before alignment, index into `rivals`
   std::vector<ScoredCandidate> aligned_;
 };
 

@@ -16,14 +16,14 @@ using geometry::Quadrilateral;
 
 constexpr int kSmallestLevelPx = 16;
 
-constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples a mean side]
+constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples per mean side]
 constexpr double kBlur = 0.5;                        ///< of a level [samples]
 constexpr int kMaxSamples = 2400;                    ///< of a level
-constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes; the others are spread evenly
-constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
-constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
+constexpr double kSteepPart = 0.67;  ///< part of them with the largest slopes; the rest is spread evenly
+constexpr float kDark = 4.0F;        ///< added to colours: least light that counts [grey levels]
+constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: sums of small numbers are more exact [grey levels]
 
-/// One sample of the image, before they are sorted by segments.
+/// One sample of the image, before sorting by segment.
 struct Sample {
   float x, y;
   std::array<float, 3> value, slope_x, slope_y;
@@ -31,21 +31,21 @@ struct Sample {
   float steepness;
 };
 
-/// Measures of the opening in its mean sides.
+/// Width and height of the opening in its mean sides.
 struct Shape {
   double width, height;
 };
 
-// Far away everything counts; near, what may lie in another plane than the opening is left out.
+// Far away the whole ring counts; near the window only its inner part, as the rest may lie in another plane.
 double widthOf(double side_px) { return side_px < 28.0 ? RingModel::kWidth : 0.7 * RingModel::kWidth; }
 
-// Nearer to the opening colours are mixed with what lies in it [mean sides]. Where little is seen, little is
-// given away.
+// Least distance from the opening [mean sides]: nearer to it, colours mix with those in it. At low resolution
+// the distance is one pixel only, to keep samples.
 double clearOf(double side_px) { return (side_px < 28.0 ? 1.0 : 2.0) / side_px; }
 
 int segmentsASide(double side_px) { return side_px < 28.0 ? 2 : side_px < 80.0 ? 4 : 6; }
 
-// Which stretch of which side lies nearest; -1 within the opening or beside the ring.
+// Index of the nearest segment; -1 within the opening or outside the ring.
 int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side) {
   const double out_x = (std::abs(p.x()) - 0.5) * shape.width, out_y = (std::abs(p.y()) - 0.5) * shape.height;
   const double out = std::max(out_x, out_y);
@@ -57,7 +57,7 @@ int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side)
   return side * a_side + std::clamp(static_cast<int>(part * a_side), 0, a_side - 1);
 }
 
-/// The image, smoothed for one level, read between its pixels.
+/// Reads the image, smoothed for one level, between its pixels.
 class RingReader {
  public:
   RingReader(const cv::Mat& image, const geometry::UnitSquare& map, int level, const RingModel& model)
@@ -101,7 +101,7 @@ bool sampleAt(const RingReader& reader, const Vector2d& p, const Vector2d& half_
   return true;
 }
 
-// Of each segment the steepest ones, and some of the rest.
+// Keeps the steepest samples of each segment, and an even choice of the rest.
 void thinOut(std::vector<Sample>& samples, int segments) {
   if (static_cast<int>(samples.size()) <= kMaxSamples) return;
   const int steep = static_cast<int>(kSteepPart * kMaxSamples / segments);
@@ -144,7 +144,7 @@ RingLevel levelFrom(const std::vector<Sample>& samples, int segments, double sid
   return level;
 }
 
-// The ring on a grid of this resolution.
+// Samples the ring on a grid of this resolution.
 RingLevel sampled(const RingReader& reader, const Shape& shape, double side_px) {
   const double pitch = 1.0 / side_px, half = RingModel::kWidth + 0.5 * std::max(shape.width, shape.height);
   const int a_side = segmentsASide(side_px);

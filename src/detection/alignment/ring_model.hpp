@@ -11,18 +11,17 @@
 
 namespace window_ingress::detection {
 
-/// An image at full, half, quarter ... size; each level is made when it is first asked for. Keeps its
-/// memory.
+/// An image at full, half, quarter ... size. Makes each level on first use. Keeps its memory.
 class ImagePyramid {
  public:
   /// \param image CV_8UC1 or CV_8UC3; shared, not copied
   void set(const cv::Mat& image);
 
-  /// \param k 0: the image itself; clamped to what is left of it
+  /// \param k 0: the image itself; clamped to the deepest level
   const cv::Mat& level(int k);
-  int deepest() const { return deepest_; }  ///< level of which the shorter side has 16 pixels or so
+  int deepest() const { return deepest_; }  ///< its shorter side has about 16 pixels
 
-  /// Pixel of a level under a pixel of the image: pixel centres are integers on both.
+  /// Pixel of the image in coordinates of a level; pixel centres are integers on both.
   static Eigen::Vector2d onLevel(const Eigen::Vector2d& pixel, int k) {
     const double factor = 1 << k;
     return (pixel.array() - 0.5 * (factor - 1.0)) / factor;
@@ -36,43 +35,43 @@ class ImagePyramid {
 std::array<float, 257> logsOfColours();
 inline const std::array<float, 257> kLogsOfColours = logsOfColours();
 
-/// Logarithm of a colour, 0 to 255: what the light multiplies is added to it.
+/// Logarithm of a colour, 0 to 255: a factor of the light becomes an offset.
 inline float logOf(float value) {
   const int whole = static_cast<int>(value);
   return kLogsOfColours[whole] +
          (value - static_cast<float>(whole)) * (kLogsOfColours[whole + 1] - kLogsOfColours[whole]);
 }
 
-inline constexpr int kRingChannels = 3;  ///< of all images; those of a grey one are equal
+inline constexpr int kRingChannels = 3;  ///< of all images; equal for a grey image
 
-/// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
-/// Points lie in the order of their segments.
+/// The ring round the opening at one resolution: points of the opening's plane and the colours there. Points
+/// are ordered by segment.
 struct RingLevel {
-  double side_px = 0.0;     ///< samples along a mean side of the opening
-  std::vector<float> x, y;  ///< in sides of the opening from its centre: within it, both are in -0.5 .. 0.5
-  std::vector<float> monomials;           ///< of x and y, 16 a point
+  double side_px = 0.0;                   ///< samples per mean side of the opening
+  std::vector<float> x, y;                ///< from the opening's centre [its sides]: -0.5 .. 0.5 within it
+  std::vector<float> monomials;           ///< of x and y, 16 per point
   std::vector<float> values;              ///< logarithms of the colours, channel by channel
-  std::vector<float> slopes_x, slopes_y;  ///< their change a side of the opening, likewise
-  std::vector<int> segments;  ///< where each begins, and the end: light is taken to be even over a segment
+  std::vector<float> slopes_x, slopes_y;  ///< change of `values` per side of the opening
+  std::vector<int> segments;  ///< first sample of each, and the end; light is assumed even over a segment
 
   int size() const { return static_cast<int>(x.size()); }
   int segmentCount() const { return static_cast<int>(segments.size()) - 1; }
 };
 
-/// What lies around the opening in the operator's image, at several resolutions: a ring of frame and wall,
-/// flat, so that a homography takes it into any image. Nothing within the opening counts, and nothing that
-/// the image does not show.
+/// Surroundings of the opening in the operator's image, at several resolutions: a flat ring of frame and
+/// wall, which a homography maps into any image. What lies within the opening or outside the image does not
+/// count.
 class RingModel {
  public:
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
 
-  /// \param image CV_8UC3 \param opening canonical order, in its pixels \param colour weight of the
-  /// differences between channels, beside brightness
+  /// \param image CV_8UC3 \param opening canonical order, in pixels of the image \param colour weight of the
+  /// differences between channels, relative to brightness
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0);
   void forget() { levels_.clear(), aspect_.reset(); }
   bool known() const { return !levels_.empty(); }
 
-  /// Of the opening, where it is known.
+  /// Aspect of the opening, where known.
   void setAspect(const std::optional<OpeningAspect>& aspect) { aspect_ = aspect; }
   const std::optional<OpeningAspect>& aspect() const { return aspect_; }
 
@@ -80,7 +79,7 @@ class RingModel {
   void setFramed(bool framed) { framed_ = framed; }
   bool framed() const { return framed_; }
 
-  /// Gives the differences of three logarithms their weight, for `count` points.
+  /// Weights the differences between the channels' logarithms, for `count` points.
   void weighColour(float* blue, float* green, float* red, std::size_t count) const {
     const float weight = colour_;
     for (std::size_t i = 0; i < count; ++i) {
@@ -91,9 +90,9 @@ class RingModel {
     }
   }
 
-  /// The level nearest to this resolution, coarse to fine by steps of the square root of two.
+  /// The level nearest to this resolution; levels differ by factors of the square root of two.
   const RingLevel& level(double side_px) const;
-  double finest() const { return levels_.back().side_px; }  ///< [px a mean side]
+  double finest() const { return levels_.back().side_px; }  ///< [px per mean side]
 
  private:
   std::vector<RingLevel> levels_;

@@ -8,8 +8,9 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kGainSpread =
-    0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
-constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: another exposure or tone curve
+    0.3;  ///< standard deviation of a segment's contrast relative to the whole ring's [1]
+constexpr double kMinRingGain = 0.8,
+                 kMaxRingGain = 1.25;  ///< of the ring: other exposure or tone curve
 
 }  // namespace
 
@@ -32,7 +33,6 @@ RingMatch RingScore::of(RingView& view) {
   return match;
 }
 
-// What each segment adds.
 void RingScore::shareOut(const RingView& view) {
   correlation_ = {};
   shares_.clear();
@@ -45,7 +45,7 @@ void RingScore::shareOut(const RingView& view) {
   }
 }
 
-// A frame in another paint correlates with the reference's; its contrast with the wall is another.
+// A frame in another paint still correlates with the reference's; but its contrast with the wall differs.
 double RingScore::weighContrasts() {
   gains_.clear();
   for (const Share& share : shares_)

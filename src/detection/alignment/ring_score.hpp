@@ -6,27 +6,27 @@
 
 namespace window_ingress::detection {
 
-/// How far what lies round a quadrilateral is what lies round the opening in the reference image.
+/// How well the surroundings of a quadrilateral match those of the opening in the reference image.
 struct RingMatch {
   double correlation =
-      -1.0;  ///< of logarithms of colours, each segment with a gain and offset of its own; at most 1
-  double faithful = 0.0;  ///< correlation of which only counts what has the contrast of the reference, too
-  double contrast = 1.0;  ///< over the reference's; less through haze
-  double faithful_uncovered = 0.0;  ///< the same without the third of the ring that fits worst
+      -1.0;               ///< of logarithmic colours, each segment with its own gain and offset; at most 1
+  double faithful = 0.0;  ///< `correlation`, counting only segments with the contrast of the reference
+  double contrast = 1.0;  ///< relative to the reference's; reduced by haze
+  double faithful_uncovered = 0.0;  ///< `faithful` without the worst third of the ring
 };
 
-/// How far what a view shows is what the reference shows, also where something stands before the ring:
-/// samples that differ far more than most count less. Keeps its memory.
+/// Scores how well a view matches the reference, also where something stands before the ring: samples that
+/// differ far more than most count less. Keeps its memory.
 class RingScore {
  public:
-  /// \param view of the place, with all its samples; their weights are changed
+  /// \param view at the place, with all its samples; their weights are changed
   RingMatch of(RingView& view);
 
  private:
-  /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
+  /// Contribution of a segment to the match, and its contrast relative to the reference's.
   struct Share {
     double alike, weight, covered_weight, gain, variance;  ///< variance: of the logarithm of the gain
-    double faithful;                                       ///< of `alike`
+    double faithful;                                       ///< part of `alike`
   };
   void shareOut(const RingView& view);
   double weighContrasts();

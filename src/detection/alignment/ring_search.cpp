@@ -10,19 +10,19 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kSidePx = 14.0;                          ///< of the pattern [px a mean side]
+constexpr double kSidePx = 14.0;                          ///< of the pattern [px per mean side]
 constexpr int kReach = 3;                                 ///< of the pattern beyond the opening [px]
-constexpr int kFine = 8;                                  ///< pixels that are averaged, in each direction
-constexpr double kSmallestPx = 40.0, kLargestPart = 0.8;  ///< mean side [px; of the shorter image side]
-constexpr double kStep = 1.3;                             ///< from one size to the next
+constexpr int kFine = 8;                                  ///< pixels averaged in each direction
+constexpr double kSmallestPx = 40.0, kLargestPart = 0.8;  ///< mean side [px] and [shorter image sides]
+constexpr double kStep = 1.3;                             ///< factor between sizes
 constexpr float kLeast = 0.25F;                           ///< correlation of a place
 constexpr double kSlopeNoise = 0.02;                      ///< of a slope of a logarithm [1/px]
-constexpr int kFewestShown = 3;                           ///< that the reference must show
+constexpr int kFewestShown = 3;                           ///< sides that the reference must show
 constexpr int kPeakPx = 5;
-constexpr int kFurthestPx = 2;     ///< that half a side may lie off its place, across
-constexpr double kOffCost = 0.02;  ///< taken from its likeness for each pixel that it lies off
+constexpr int kFurthestPx = 2;     ///< offset of half a side across it
+constexpr double kOffCost = 0.02;  ///< subtracted from the likeness per pixel of offset
 
-// The part about the opening that the reference shows.
+// The part round the opening that the reference shows.
 cv::Rect shownAbout(const cv::Rect& opening, const cv::Mat& is_shown) {
   const auto shows = [&](const cv::Rect& part) { return cv::countNonZero(is_shown(part) < 255) == 0; };
   cv::Rect shown = opening;
@@ -37,7 +37,7 @@ cv::Rect shownAbout(const cv::Rect& opening, const cv::Mat& is_shown) {
 
 }  // namespace
 
-// Of the logarithms: the strength of the light is not in them.
+// Slopes of the logarithms, which do not depend on the strength of the light.
 void RingSearch::readSlopes(const cv::Mat& grey) {
   static const cv::Mat logs(1, 256, CV_32F, const_cast<float*>(kLogsOfColours.data()));
   cv::LUT(grey, logs, logs_);
@@ -81,7 +81,7 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
   if (sides_.size() < kFewestShown) forget();
 }
 
-// The slopes of this size of the image; false if it is smaller than the pattern.
+// Computes the slopes at this size of the image; false if it is smaller than the pattern.
 bool RingSearch::shrink(double factor) {
   const cv::Size full = pyramid_.level(0).size();
   const cv::Size size(static_cast<int>(full.width * factor), static_cast<int>(full.height * factor));
@@ -92,8 +92,8 @@ bool RingSearch::shrink(double factor) {
   return true;
 }
 
-// Of this size of the image with the pattern, at every place. Sides are small: sums are faster than
-// transforms.
+// Correlates this size of the image with the pattern, at every place. For such small sides, direct sums are
+// faster than Fourier transforms.
 bool RingSearch::correlate(double factor) {
   if (!shrink(factor)) return false;
   const cv::Size places(level_.cols - pattern_.width + 1, level_.rows - pattern_.height + 1);
@@ -135,7 +135,7 @@ void RingSearch::takePeaks(double factor) {
     }
 }
 
-// Of a part of a side with what lies there in this size of the image.
+// Correlation of a part of a side with the image there.
 double RingSearch::likeness(const Side& side, const cv::Rect& part, const cv::Point& at) const {
   const cv::Rect there = part + at;
   if ((there & cv::Rect({0, 0}, slopes_x_.size())) != there) return -1.0;
@@ -148,7 +148,7 @@ double RingSearch::likeness(const Side& side, const cv::Rect& part, const cv::Po
   return (wanted_x.dot(x) + wanted_y.dot(y)) / std::sqrt(squares(x, y) * squares(wanted_x, wanted_y));
 }
 
-// How far a part of a side lies off across it where it fits best, between pixels by a parabola.
+// Offset across a part of a side at its best fit, between pixels by a parabola.
 double RingSearch::offAcross(const Side& side, const cv::Rect& part, const cv::Point& at) const {
   std::array<double, 2 * kFurthestPx + 1> alike{};
   for (int across = -kFurthestPx; across <= kFurthestPx; ++across) {
@@ -166,7 +166,7 @@ double RingSearch::offAcross(const Side& side, const cv::Rect& part, const cv::P
   return bend < 0.0 ? off + 0.5 * (most[-1] - most[1]) / bend : off;
 }
 
-// Through the middles of its halves, each where it fits best.
+// Line through the middles of the side's halves, each at its best fit.
 RingSearch::Line RingSearch::settled(const Side& side, const cv::Point& at) const {
   const int length = side.is_level ? side.at.width : side.at.height, half = length / 2;
   std::array<double, 2> off{}, middle{};
@@ -181,7 +181,7 @@ RingSearch::Line RingSearch::settled(const Side& side, const cv::Point& at) cons
   return {off[0] - slope * middle[0], slope};
 }
 
-// Its four sides where they fit best.
+// Moves the four sides of a place to their best fit.
 void RingSearch::settle(Place& place) {
   if (sides_.size() != 4 || !shrink(place.factor)) return;
   std::array<Line, 4> lines;

@@ -7,26 +7,26 @@
 
 namespace window_ingress::detection {
 
-/// Where in an image the opening may be, without any edge being found: the slopes of brightness along its
-/// four sides, upright and as the reference shows them, are correlated with the whole image at every size.
-/// Each side may lie a pixel off, a fourteenth of a side: a view from elsewhere moves them by that. At the
-/// best places each half of a side is then put where it fits best, so that the place leans as the view does;
-/// the alignment does the rest. Keeps its memory.
+/// Searches an image for the opening without edge detection. The brightness slopes along the four sides,
+/// upright as in the reference, are correlated with the whole image at every size. Each side may lie one
+/// pixel off (a fourteenth of a side) to allow for another viewpoint. At the best places each half of a side
+/// is then moved to its best fit, so that the place leans as the view does. RingAlignment does the rest.
+/// Keeps its memory.
 class RingSearch {
  public:
   struct Place {
     geometry::Quadrilateral quad;  ///< pixels of the image
-    double correlation;            ///< mean of the sides'
-    double factor;                 ///< by which the image is made smaller there
-    cv::Point at;                  ///< of the pattern in that
+    double correlation;            ///< mean over the sides
+    double factor;                 ///< scale of the reduced image
+    cv::Point at;                  ///< of the pattern in the reduced image
   };
 
-  /// \param image CV_8UC3 \param opening canonical order, in its pixels
+  /// \param image CV_8UC3 \param opening canonical order, in pixels of the image
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { sides_.clear(); }
   bool known() const { return !sides_.empty(); }
 
-  /// Best first, each place once, at most `most`. Valid until the next call.
+  /// Places, best first, each place once, at most `most`. Valid until the next call.
   /// \param image CV_8UC3 \param leaning false: upright, as the reference shows it
   const std::vector<Place>& run(const cv::Mat& image, std::size_t most, bool leaning = true);
 
@@ -35,10 +35,10 @@ class RingSearch {
   struct Side {
     cv::Rect at;  ///< in the pattern
     cv::Mat slopes_x, slopes_y;
-    double squares;  ///< their sum
+    double squares;  ///< sum of the squared slopes
     bool is_level;   ///< top or bottom
   };
-  /// Across a side, from the pattern's corner on [px].
+  /// Offset across a side as a line, from the pattern's corner [px].
   struct Line {
     double at0, slope;
   };
@@ -55,7 +55,7 @@ class RingSearch {
   cv::Size2d opening_;  ///< in the middle of the pattern [px]
   std::vector<Side> sides_;
   ImagePyramid pyramid_;
-  cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, squares_;  ///< of one size of the image
+  cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, squares_;  ///< at one size of the image
   cv::Mat alike_, alike_y_, norm_, sum_, peaks_;
   std::vector<Place> places_;
 };

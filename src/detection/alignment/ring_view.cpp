@@ -15,20 +15,20 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr float kMaxGain = 2.0F;
-constexpr float kUsualWeight =
-    0.5F;  ///< mean of the samples', at least, where nothing stands before a segment
-constexpr double kMaxCovered = 1.0 / 3.0;            ///< of the ring
-constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
+constexpr float kUsualWeight = 0.5F;       ///< least mean sample weight of an uncovered segment
+constexpr double kMaxCovered = 1.0 / 3.0;  ///< of the ring
+constexpr float kHorizon = 1e-3F,
+                kNowhere = -1e6F;  ///< least depth over the centre's; outside any image
 
 using Ints = std::int32_t __attribute__((vector_size(16)));
 
-// The colours at their places in four bytes: green and red so much too large, which a float bears exactly.
+// The colours in their byte positions: green is 256 and red 65536 times too large, exact as float.
 Channels unscaled(std::uint32_t bytes) {
   const auto all = static_cast<std::int32_t>(bytes);
   return __builtin_convertvector(Ints{all, all, all, all} & Ints{0xff, 0xff00, 0xff0000, 0}, Channels);
 }
 
-// Between two pixels side by side. Nothing beyond their six bytes is read.
+// Interpolates between two adjacent pixels. Reads only their six bytes.
 Channels unscaledBetween(const uchar* left, float u) {
   std::uint32_t first = 0, last = 0;
   std::memcpy(&first, left, 4), std::memcpy(&last, left + 2, 4);
@@ -36,7 +36,7 @@ Channels unscaledBetween(const uchar* left, float u) {
   return colour + u * (unscaled(last >> 8) - colour);
 }
 
-// Between four pixels.
+// Bilinear interpolation.
 Channels colourAt(const cv::Mat& image, float x, float y) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
@@ -72,13 +72,13 @@ RingMoments momentsOf(const float* ring, const float* image, const float* weight
   return m;
 }
 
-// The middle value, as geometry::median, of numbers that are not negative. Faster: only those that begin as
-// it does are ordered, and left.
+// Median of non-negative numbers, as geometry::median but faster: orders only values that share the median's
+// leading bits. Changes `values`.
 float middleOf(std::vector<float>& values) {
   const auto begins = [](float value) {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof(bits));
-    return bits >> 20;  // sign, exponent, three bits more
+    return bits >> 20;  // sign, exponent, three more bits
   };
   std::array<std::size_t, 2048> counts{};
   for (const float value : values) ++counts[begins(value)];
@@ -223,7 +223,7 @@ void RingView::coverOutliers(int passes) {
   for (int n = 0; n < passes; ++n) weighByResiduals();
 }
 
-// A step of iteratively reweighted least squares: gains and offsets of the segments follow from the weights.
+// One step of iteratively reweighted least squares; segment gains and offsets follow from the weights.
 void RingView::weighByResiduals() {
   const std::size_t count = weights_.size();
   residuals_.resize(kRingChannels * count);

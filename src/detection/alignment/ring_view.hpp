@@ -12,20 +12,20 @@
 
 namespace window_ingress::detection {
 
-/// A number of each channel, blue, green and red, worked out at once; the fourth is not used.
+/// One number per channel (blue, green, red), computed together; the fourth is unused.
 using Channels = float __attribute__((vector_size(16)));
 
-/// What the image shows of a stretch of the ring in which the light is even.
+/// Statistics of the image over a stretch of the ring with even light.
 struct RingSegment {
   int begin = 0, end = 0;
   float seen = 0.0F;             ///< sum of the samples' weights
   Channels ring_mean{}, mean{};  ///< of the ring's values and of the image's
-  float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times its samples, noise added; of all channels
+  float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times number of samples, with noise; all channels
   float noise = 0.0F;            ///< part of `xx`
   double alike = 0.0;            ///< correlation times `weight`
-  double weight = 0.0;  ///< what it can tell: that grows with its samples, and slowly with their contrast, so
-                        ///< that one strong edge does not stand for all
-  double covered_weight = 0.0;  ///< what it could tell more if nothing stood before it
+  double weight = 0.0;  ///< information: grows with the samples, and slowly with their contrast, so that one
+                        ///< strong edge does not dominate
+  double covered_weight = 0.0;  ///< weight it would gain if nothing stood before it
 };
 
 /// Weighted mean of the segments' correlations.
@@ -35,24 +35,24 @@ struct RingCorrelation {
   double value() const { return most > 0.0 ? alike / most : -1.0; }
 };
 
-/// What a segment says, times its weight.
+/// A segment's value times its weight, and the weight.
 struct WeightedPart {
   double sum, weight;
 };
 
-/// Weighted mean without the third that says least: something may stand before it. Sorts the parts; none may
-/// be without weight.
+/// Weighted mean without the worst third, which may be covered. Sorts the parts. Every part must have a
+/// positive weight.
 double meanUncovered(std::vector<WeightedPart>& parts);
 
-/// The image under the samples of the ring, at one place and resolution. Keeps its memory.
+/// The image at the ring's samples, at one place and resolution. Keeps its memory.
 class RingView {
  public:
   static constexpr double kMinSeen = 0.3;  ///< part of the ring that must lie in the image
-  static constexpr int kCoverPasses = 3;   ///< of `coverOutliers`, at a new place
+  static constexpr int kCoverPasses = 3;   ///< of `coverOutliers` at a new place
   static constexpr float kNoise = 0.01F;   ///< of a logarithm of a colour
 
-  /// \param model, image outlive the view \param camera null: the image is taken as free of distortion
-  /// \param covered something stands before the ring: wherever the view looks, `coverOutliers` follows
+  /// \param model, image must outlive the view \param camera null: the image has no distortion
+  /// \param covered something stands before the ring: every `look` includes `coverOutliers`
   void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera, bool covered);
   bool covered() const { return covered_; }
   const geometry::PinholeCamera* lens() const { return lens_; }  ///< null: no distortion
@@ -65,35 +65,35 @@ class RingView {
   };
   Scale scaleFor(double quad_side_px, double wanted_px);
 
-  /// Looks at this place, which stays until the next look. \param map from the opening, its sides of length 1
-  /// and its centre at 0, to ideal pixels \param nearby the last look was near here, at this scale: what was
-  /// covered still is \return part of the ring that lies in the image
+  /// Moves the view to this place. \param map from the opening, scaled to unit sides and centred at 0, to
+  /// undistorted pixels \param nearby the last look was near here, at this scale: its covered samples stay
+  /// covered \return part of the ring that lies in the image
   double look(const Scale& scale, const Eigen::Matrix3d& map, bool nearby = false);
-  /// The same. \param quad pixels of the image as it came \param side_px resolution, at most [px a mean side]
+  /// As above. \param quad pixels of the raw image \param side_px resolution, at most [px per mean side]
   double look(const geometry::Quadrilateral& quad, double side_px);
 
   const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
 
-  float meanLog() const;  ///< of the colours that are seen
+  float meanLog() const;  ///< mean over the visible samples
 
-  /// How much a sample counts; 0 where it lies beside the image.
+  /// Weight of a sample; 0 outside the image.
   float weight(std::size_t i) const { return weights_[i]; }
   const float* weights() const { return weights_.data(); }
 
-  /// Samples that differ from the reference far more than most count less from now on: where most of the ring
-  /// fits well, what does not is something before it; where nothing fits, all counts.
+  /// Lowers the weight of samples that differ from the reference far more than most. Where most of the ring
+  /// fits well, the rest is covered; where nothing fits, all samples count.
   void coverOutliers(int passes);
 
-  /// What one segment shows of the reference, channel by channel and in all.
+  /// Statistics of one segment, per channel and in total.
   RingSegment segment(int s) const;
 
-  /// What is left over of its samples when gain and offsets are taken off. \param residuals as the values of
-  /// the ring
+  /// Residuals of the segment's samples after removal of gain and offsets. \param residuals laid out as the
+  /// ring's values
   void leaveOver(const RingSegment& segment, std::vector<float>& residuals) const;
 
-  /// Standard deviation of what is left over, from its median; `before` where nothing is seen.
-  /// \param residuals as the values of the ring
+  /// Standard deviation of the residuals, from their median; `before` where nothing is visible.
+  /// \param residuals laid out as the ring's values
   float spreadOf(const std::vector<float>& residuals, float before);
 
  private:
@@ -110,14 +110,13 @@ class RingView {
   std::vector<float> values_, weights_, residuals_, scratch_;
 };
 
-/// Weight of a sample by its squared residual: a scale of the robust weights of Cauchy, in standard
-/// deviations.
+/// Scale of the robust Cauchy weight 1 / (1 + factor * residual^2), for residuals of this standard deviation.
 inline float robustFactor(float spread) {
   constexpr float kOutlier = 2.0F;
   return 1.0F / (kOutlier * spread * kOutlier * spread);
 }
 
-/// From the opening, its sides of length 1 and its centre at 0, to a quadrilateral.
+/// Map from the opening, scaled to unit sides and centred at 0, to a quadrilateral.
 Eigen::Matrix3d mapFromCentre(const geometry::Quadrilateral& quad);
 
 }  // namespace window_ingress::detection

@@ -18,20 +18,22 @@ using Eigen::Vector2d;
 
 constexpr int kSamples = 80;  ///< profiles across each side, at most one a pixel
 constexpr double kNominalSide =
-    640.0;                       ///< longer side of an image up to which pixel parameters hold as they are
-constexpr double kWidePx = 1e3;  ///< no prior
-constexpr double kShortestPx = 4.0;       ///< a side that can be fitted [px]
-constexpr double kFrontWithinPx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
-constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
-constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
-constexpr double kTurned = 2.5;           ///< of the reach, for the ends of a line that most of a side shows
+    640.0;                           ///< pixel parameters scale with the image beyond this longer side [px]
+constexpr double kWidePx = 1e3;      ///< no prior
+constexpr double kShortestPx = 4.0;  ///< shortest side that can be fitted [px]
+constexpr double kFrontWithinPx =
+    1.2;  ///< front edge of a reveal: greatest distance from the fitted edge [px]
+constexpr double kLocatedWithinPx =
+    1.6;                         ///< front edge of a reveal: greatest distance from a located start [px]
+constexpr double kWider = 1.8;   ///< factor of the reach where a located border is not within it
+constexpr double kTurned = 2.5;  ///< factor of the reach for line ends, where most of a side is visible
 constexpr double kMaxInliers = 0.7;
 constexpr double kKnownSigmas = 3.0;
-constexpr double kContradiction = 13.8;  ///< chi squared of two numbers that one in a thousand exceeds
+constexpr double kContradiction = 13.8;  ///< 99.9 % quantile of chi-squared with two degrees of freedom
 
 }  // namespace
 
-/// Memory of one object, used again for each side.
+/// Buffers of one object, reused for each side.
 struct BorderRefinement::Workspace {
   EdgeProfiles profiles;
   SubpixelBorder fit;
@@ -39,7 +41,7 @@ struct BorderRefinement::Workspace {
 
 namespace {
 
-/// One side while it is being fitted: profiles once, then everything from them.
+/// Fits one side: samples its profiles once and derives everything from them.
 class Side {
  public:
   Side(BorderRefinement::Workspace& memory, const SubpixelBorderLimits& limits, const BorderStart& start,
@@ -53,7 +55,7 @@ class Side {
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
     return run(image, lens, a, b, reach());
   }
-  // Again, where nothing lies near the start: for a border further away that shows over most of its length.
+  // Second try where no edge lies near the start. Accepts a border further away if most of it is visible.
   void runWider(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a,
                 const Vector2d& b) {
     if (shows_edge_ || is_hidden_) return;
@@ -66,14 +68,14 @@ class Side {
   bool seen() const { return seen_; }
   double inliers() const { return inliers_; }
   Line line() const { return border_.inImage(memory_.profiles); }
-  // The start as an answer.
+  // The start, as the result.
   Line start() const {
     FittedBorder border;
     border.from = -0.5 * memory_.profiles.length(), border.to = -border.from;
     border.sigma_px = known_.px, border.sigma_rad = known_.rad;
     return border.inImage(memory_.profiles);
   }
-  // Ends of the stretch that was seen, or of the start, on the line.
+  // Ends of the visible stretch on the line, or those of the start.
   std::pair<Vector2d, Vector2d> ends() const {
     const auto& p = memory_.profiles;
     const double half = 0.5 * p.length();
@@ -103,7 +105,7 @@ class Side {
     return known_.known() ? std::min(start_.radius_px, kKnownSigmas * known_.px + 1.0) : start_.radius_px;
   }
 
-  // Mahalanobis's distance between what is known of a side and what was fitted.
+  // Tests the Mahalanobis distance between the prior of a side and its fit.
   bool agrees() const {
     if (!known_.known()) return true;
     const Eigen::Matrix2d both = knownInformation().inverse() + fittedInformation().inverse();
@@ -111,7 +113,7 @@ class Side {
     return apart.dot(both.ldlt().solve(apart)) < kContradiction;
   }
 
-  // Of offset and slope at the middle of the side.
+  // Information matrices of offset and slope at the middle of the side.
   Eigen::Matrix2d knownInformation() const {
     return Vector2d(1.0 / (known_.px * known_.px), 1.0 / (known_.rad * known_.rad)).asDiagonal();
   }
@@ -132,12 +134,12 @@ class Side {
     border_.sigma_rad = std::sqrt(covariance(1, 1));
   }
 
-  // A start that was located may be turned itself: a line that nearly all of the side shows may be, too.
+  // A located start may be rotated. A line visible along nearly all of a side may therefore deviate further.
   double reachOf(double radius_px) const {
     return known_.known() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
   }
 
-  // A start that was located says where the front edge is, any other one but what is beside it.
+  // A located start gives the position of the front edge; any other start only that of an edge near it.
   void toFront() {
     const double from = border_.line.at(border_.middle());
     const double near = kFrontWithinPx, wide = kLocatedWithinPx;
@@ -162,7 +164,7 @@ class Side {
   BorderRefinement::Workspace& memory_;
   const SubpixelBorderLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
-  const SideSigma known_;  // as profiles count
+  const SideSigma known_;  // in the profiles' pixels
   const bool is_hidden_;
   int count_ = 0;
   FittedBorder border_;
@@ -170,7 +172,7 @@ class Side {
   double inliers_ = 0.0;
 };
 
-// Canonical order again: a corner may have become the first by a fraction of a pixel.
+// Restores canonical order: a corner may have become the first by a fraction of a pixel.
 void startAtTopLeft(RefinedBorders& borders) {
   const auto first = std::min_element(borders.corners.begin(), borders.corners.end(),
                                       [](const Vector2d& a, const Vector2d& b) { return a.sum() < b.sum(); });
@@ -183,7 +185,7 @@ void startAtTopLeft(RefinedBorders& borders) {
   rotate(borders.known);
 }
 
-// Corners of the image as it came from the borders; false if they are no window.
+// Intersects the borders to corners in raw pixels; false if they form no convex quadrilateral.
 bool finish(const std::array<Line, 4>& lines, const geometry::PinholeCamera* lens, RefinedBorders& borders) {
   for (int i = 0; i < 4; ++i) {
     const auto corner = meet(lines[(i + 3) % 4], lines[i]);

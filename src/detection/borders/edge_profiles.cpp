@@ -11,9 +11,8 @@ using Eigen::Vector2d;
 
 constexpr double kMarginPx = 2.0;  // of a profile's middle from the border of the image
 
-/// Pixels of the points middle + o * step of the undistorted image, as a parabola in o: what a lens bends
-/// beyond that is less than a thousandth of a pixel over the reach of a profile, and a hundredth 60 degrees
-/// off a fisheye's axis.
+/// Raw pixel of the undistorted point middle + o * step, as a parabola in o. Its error over the reach of a
+/// profile is less than a thousandth of a pixel, and a hundredth at 60 degrees off a fisheye's axis.
 struct Path {
   Vector2d at, slope, bend;
 
@@ -33,12 +32,12 @@ bool isInside(const cv::Mat& image, const Vector2d& p, double margin) {
          p.y() < image.rows - 1 - margin;
 }
 
-// Beyond the border of the image the last pixels go on.
+// Beyond the border of the image the last pixels repeat.
 Vector2d clamped(const cv::Mat& image, const Vector2d& p) {
   return p.cwiseMax(0.0).cwiseMin(Vector2d(image.cols - 1.001, image.rows - 1.001));
 }
 
-/// One pixel after another, by bilinear interpolation or the nearest one.
+/// Reads single pixels, bilinearly interpolated or the nearest one.
 template <int kChannels, bool kRough>
 class ProfileReader {
  public:
@@ -68,9 +67,9 @@ class ProfileReader {
 };
 
 const Eigen::Vector3f kBrightness(0.114f, 0.587f, 0.299f);
-constexpr double kSoftRatio = 0.45;  // of the differences: an edge blurred by a pixel
-constexpr double kMinColour = 0.5;   // mean square of the first differences that is not nothing
-constexpr float kTrusted = 0.35f;    // part of a change of colour beside one of brightness
+constexpr double kSoftRatio = 0.45;  // ratio of squared differences for an edge blurred by one pixel
+constexpr double kMinColour = 0.5;   // mean square of first differences that counts as colour
+constexpr float kTrusted = 0.35f;    // weight of a change of colour relative to one of brightness
 
 }  // namespace
 

@@ -14,35 +14,33 @@ struct ProfileGrid {
   Eigen::Vector2d from, to;  ///< ends of the stretch [px]
   int count = 80;            ///< profiles, evenly spaced
   double skip = 0.06;        ///< left out at both ends, in lengths of the stretch
-  int reach_px = 6;          ///< samples on either side, a pixel of the image apart
-  bool rough = false;        ///< the nearest pixel instead of interpolation
+  int reach_px = 6;          ///< samples on either side, one raw pixel apart
+  bool rough = false;        ///< nearest pixel instead of interpolation
 };
 
-/// Width of a pixel of the image in the undistorted one, across a stretch at its middle: 1 without a lens.
+/// Width of a raw pixel in undistorted pixels, across a stretch at its middle; 1 without a lens.
 double pixelAcross(const geometry::PinholeCamera* lens, const Eigen::Vector2d& from,
                    const Eigen::Vector2d& to);
 
-/// Colours across a line: narrow profiles, sampled once and then read from many times. Keeps its memory.
+/// Colour profiles across a line: sampled once, then read many times. Keeps its memory.
 ///
-/// Positions along the line are pixels of the undistorted image, in which it is straight. Offsets across it
-/// are pixels of the image as it came, `pixel()` undistorted ones each: off a fisheye's axis the undistorted
-/// image is stretched, its blur and its noise with it, and what holds of edges in an image holds in those of
-/// it alone.
+/// Positions along the line are pixels of the undistorted image, where the line is straight. Offsets across
+/// it are raw pixels, `pixel()` undistorted pixels each. Off a fisheye's axis the undistorted image is
+/// stretched together with its blur and noise, so what is known about edges holds in raw pixels only.
 ///
 /// Offsets count along the normal, which points to the left of from -> to on the screen: outwards for the
 /// sides of a quadrilateral in canonical order.
 class EdgeProfiles {
  public:
   /// \param image CV_8UC1 or CV_8UC3
-  /// \param lens null where the image is free of distortion; else points of the grid are distorted on their
-  ///        way into the image, which stays as it is
+  /// \param lens null: no distortion; otherwise the points of the grid are distorted, never the image
   void sample(const cv::Mat& image, const geometry::PinholeCamera* lens, const ProfileGrid& grid);
 
   int count() const { return count_; }
   int reach() const { return reach_; }
   int width() const { return 2 * reach_ + 1; }
   int channels() const { return channels_; }
-  double pixel() const { return pixel_; }                    ///< of an offset, in undistorted pixels
+  double pixel() const { return pixel_; }                    ///< width of an offset step [undistorted px]
   double length() const { return length_; }                  ///< of the stretch [px]
   const Eigen::Vector2d& middle() const { return middle_; }  ///< of the stretch
   const Eigen::Vector2d& normal() const { return normal_; }
@@ -80,17 +78,17 @@ class EdgeProfiles {
   std::vector<unsigned char> inside_;
 };
 
-/// Many images have their colour at half of their size (JPEG and most video, cameras with a Bayer pattern):
-/// there it is brightness that says where an edge is, to a pixel and better; colour lags behind by a pixel.
+/// Many images store colour at half resolution (JPEG, most video, cameras with a Bayer pattern). Brightness
+/// then locates an edge to a pixel or better, while colour may be off by a pixel.
 
 /// Brightness of a colour or a change of it, BGR (ITU-R BT.601).
 float brightnessOf(const Eigen::Vector3f& bgr);
 
-/// The profiles have colour, and it is softer than a pixel's blur: the squares of its second differences
-/// against those of its first ones, which is 1 / (2 sigma^2) of an edge, and 3 of noise.
+/// True if the profiles have colour softer than a one-pixel blur, by the ratio of squared second to squared
+/// first differences: 1 / (2 sigma^2) for an edge, 3 for noise.
 bool isColourSoft(const EdgeProfiles& profiles);
 
-/// A change as far as soft colour can be trusted in it.
+/// A change of colour with its chromatic part reduced, because soft colour is less reliable.
 Eigen::Vector3f resolvedPart(const Eigen::Vector3f& change);
 
 }  // namespace window_ingress::detection

@@ -25,14 +25,13 @@ struct LineCorner {
   Eigen::Matrix2d covariance;  ///< [px^2]
 };
 
-/// Where two borders meet, and how well that is known from the spreads of both. Nothing if they are nearly
-/// parallel.
+/// Intersection of two borders, with its covariance from both. Nothing if they are nearly parallel.
 std::optional<LineCorner> meet(const Line& a, const Line& b);
 
-/// The same as a corner of the image as it came. \param lens null where that is free of distortion
+/// The corner in raw pixels. \param lens null: no distortion
 LineCorner throughLens(const LineCorner& ideal, const geometry::PinholeCamera* lens);
 
-/// A fitted line between two of its points, all of the undistorted image, as an edge of the image as it came.
+/// A fitted line between two of its points, converted from the undistorted to the raw image.
 Edge edgeThroughLens(const Line& line, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                      const geometry::PinholeCamera* lens);
 

@@ -11,7 +11,7 @@ constexpr double kSettledPx = 1e-5;
 
 double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
 
-// The points may all lie a little beside the start: weights about their median.
+// Weights about the points' median, because all points may lie a little off the start.
 void firstWeights(const OffsetPoints& points, double scale_px, const OffsetLine& line) {
   double *rests = points.scratch, *sorted = points.scratch + points.count;
   for (int i = 0; i < points.count; ++i) rests[i] = points.offsets[i] - line.at(points.positions[i]);

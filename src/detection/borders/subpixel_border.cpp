@@ -9,12 +9,12 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr float kFaintest = 0.5f;        // slope that may be an edge [grey levels a pixel]
-constexpr float kFaintestChange = 3.0f;  // of the mean colour over two pixels, likewise [grey levels]
+constexpr float kFaintest = 0.5f;        // least slope of an edge [grey levels per pixel]
+constexpr float kFaintestChange = 3.0f;  // least change of the mean colour over two pixels [grey levels]
 constexpr int kMinProfiles = 4;
-constexpr double kSigmaFloorPx = 0.03;  // no border is claimed to be known better than this
+constexpr double kSigmaFloorPx = 0.03;  // least standard deviation of a border
 constexpr int kNoPeak = 1 << 20;
-constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
+constexpr double kCorrelationPx = 1.5;     // profiles closer together than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
 
 // Offset of the maximum of a bell curve through three equidistant values, the middle one the largest.
@@ -81,7 +81,7 @@ bool SubpixelBorder::projectStrongest(const EdgeProfiles& profiles, double radiu
   return false;
 }
 
-// Where a profile has its edge near an offset, to a pixel.
+// Position of a profile's edge near an offset, to a pixel.
 std::optional<int> SubpixelBorder::steepest(int i, double centre, const SubpixelBorderLimits& limits) const {
   const int reach = profiles_->reach() - 2;
   const int first = std::max(-reach, static_cast<int>(std::lround(centre - limits.radius_px)));
@@ -136,7 +136,7 @@ void SubpixelBorder::spread(const SubpixelBorderLimits& limits, FittedBorder& bo
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 
-// Where what was fitted is a reveal's two edges in one, the front one.
+// If the fit merged the two edges of a reveal, moves the border to the front one.
 void SubpixelBorder::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;

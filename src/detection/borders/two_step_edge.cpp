@@ -11,20 +11,20 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of an image, standard deviation [px]
-constexpr double kSoftest = 2.0;                        // of an edge that may be two
+constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of an image, and its spread [px]
+constexpr double kSoftest = 2.0;                        // blur up to which an edge may be two [px]
 constexpr double kMinBlur = 0.35, kMinApart = 0.15, kMaxApart = 4.5;
 constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
-constexpr double kModelNoise = 0.003;  // and what a blurred step fails to describe, of its change
-constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // of a reveal
-constexpr double kGoodEnough = 5.0;   // mean squared rest of one step, in noises, that needs no second one
-constexpr double kFits = 1.2;         // of two that need no other ones
-constexpr double kStillGood = 10.0;   // of two steps that are believed
-constexpr double kBetter = 0.25;      // of the rest of one step
-constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is believed
-constexpr double kBesidePx = 1.2;     // a front further out is seen with more of what lies outside
+constexpr double kModelNoise = 0.003;  // model error of a blurred step, relative to its change
+constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // limits of a reveal's colour
+constexpr double kGoodEnough = 5.0;   // mean squared residual up to which one step suffices [noise^2]
+constexpr double kFits = 1.2;         // residual of two steps that ends the search [noise^2]
+constexpr double kStillGood = 10.0;   // residual of two steps up to which they are accepted [noise^2]
+constexpr double kBetter = 0.25;      // of one step's residual: two steps must stay below
+constexpr double kWellKnownPx = 0.3;  // standard deviation up to which a front edge is accepted
+constexpr double kBesidePx = 1.2;     // a front further out is fitted with more samples outside
 constexpr int kFitIterations = 8;
-constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
+constexpr double kSettled = 0.02;  // part of the residual that one more iteration must remove
 constexpr int kMaxEdgeSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxEdgeSamples + 4;
 
 using Params = Eigen::Vector3d;  // front, apart, blur
@@ -32,7 +32,7 @@ using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxEd
 using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRests, 1>;
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
 
-/// The normal distribution, from a table.
+/// The cumulative normal distribution, from a table.
 class Step {
  public:
   Step() {
@@ -55,7 +55,7 @@ double step(double z) {
   return table(z);
 }
 
-/// Colours between two offsets, as one step or two.
+/// Models the colours between two offsets as one step or two.
 class Model {
  public:
   Model(const float* mean, int channels, int half, int first, int last, bool two)
@@ -103,7 +103,7 @@ class Model {
 
 struct Fit {
   Params params = Params::Zero();
-  double rest = 0.0;   // mean square, in noises
+  double rest = 0.0;   // mean square [noise^2]
   double sigma = 0.0;  // of the front
 };
 

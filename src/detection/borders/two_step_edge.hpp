@@ -4,26 +4,26 @@
 
 namespace window_ingress::detection {
 
-/// Where a border lies within the blur of what is next to it.
+/// Position of a border whose blur overlaps that of a neighbouring edge.
 struct TwoStepEdge {
   double front = 0.0;     ///< offset of the outermost change [px]
-  double apart = 0.0;     ///< of the change behind it, inwards [px]; 0: there is one change alone
-  double sigma_px = 0.0;  ///< what is not known of `front` for the sake of the second change [px]
+  double apart = 0.0;     ///< distance of the change behind it, inwards [px]; 0: only one change
+  double sigma_px = 0.0;  ///< uncertainty of `front` due to the second change [px]
 };
 
-/// What may be taken for the front edge.
+/// Limits of the front edge.
 struct TwoStepEdgeLimits {
   double nearest_px = -1.2, farthest_px = 1.2;  ///< offsets, outwards positive [px]
 };
 
-/// A reveal seen at a narrow angle is a strip of a few pixels or a part of one: its front edge (frame or wall
-/// to reveal) and its back edge (reveal to what is behind) blur into each other, and the steepest change lies
-/// somewhere between them, or is the back edge alone. The front edge is the border.
+/// A reveal seen at a narrow angle is a strip of a few pixels or less. Its front edge (frame or wall to
+/// reveal) and its back edge (reveal to what is behind) blur into each other. The steepest change then lies
+/// between them, or is the back edge alone. The front edge is the border.
 ///
-/// Fits one step of unknown blur to the colours across the border; where that does not explain them, two of
-/// the same blur, whose three colours are free in each channel (variable projection, Golub and Pereyra 1973),
-/// by Levenberg's and Marquardt's method. Two steps are believed if they explain what one does not, and if
-/// the front one is then well known.
+/// Fits one step of unknown blur to the colours across the border. Where that does not explain them, fits two
+/// steps of the same blur, whose three colours are free in each channel (variable projection, Golub and
+/// Pereyra 1973), with the Levenberg-Marquardt method. Two steps are accepted if they explain what one does
+/// not, and if the front one is then well known.
 ///
 /// \param mean colours across the border, inside to outside, one pixel apart, channel by channel, 2 half + 1
 /// each, the steepest change near the middle

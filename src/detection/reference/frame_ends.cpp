@@ -3,13 +3,12 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kFrameFrom = 0.015, kFrameTo = 0.06;  ///< where the frame is, from a border [mean sides]
-constexpr double kWallFrom = 0.16, kWallTo = 0.2;      ///< and the wall
-constexpr double kAlikePart =
-    0.2;                         ///< of the contrast of frame and wall: by so much a frame's colours differ
-constexpr int kFewestAlike = 3;  ///< sides of one frame, to be sure of its colour
-constexpr double kBeyondFrom = 0.08, kBeyondTo = 0.15;  ///< of the end of a side, where its frame may go on
-                                                        ///< [sides]
+constexpr double kFrameFrom = 0.015, kFrameTo = 0.06;  ///< band of the frame, from a border [mean sides]
+constexpr double kWallFrom = 0.16, kWallTo = 0.2;      ///< band of the wall, from a border [mean sides]
+constexpr double kAlikePart = 0.2;  ///< of the contrast of frame and wall: colours of one frame differ less
+constexpr int kFewestAlike = 3;     ///< sides of a frame that must agree in colour
+constexpr double kBeyondFrom = 0.08,
+                 kBeyondTo = 0.15;  ///< beyond a side's end, where its frame may continue [sides]
 
 }  // namespace
 

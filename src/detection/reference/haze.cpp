@@ -6,14 +6,15 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kMinLeft = 0.06, kMaxLeft = 0.85;
-constexpr float kDarkest = 40.0F;         ///< a thinner haze changes little [grey levels]
-constexpr float kGreyest = 0.75F;         ///< least over greatest channel of haze and glare, at least
-constexpr float kTolerance = 8.0F;        ///< of the darkest place: noise [grey levels]
-constexpr float kUneven = 0.08F;          ///< and this part of the haze: what is nearer has less of it
-constexpr double kMinDifference = 25.0;   ///< of the reference's frame and surround [grey levels]
-constexpr double kClearOfNoise = 5.0;     ///< standard deviations that are left of that difference
-constexpr double kTurn_rad = 0.05;        ///< standard deviation of its direction, from paint and light
-constexpr double kMaxThroughHaze = 0.45;  ///< in fog it is 0.25 and less, for other paint 0.7
+constexpr float kDarkest = 40.0F;        ///< a thinner haze changes little [grey levels]
+constexpr float kGreyest = 0.75F;        ///< least ratio of smallest to largest channel of haze and glare
+constexpr float kTolerance = 8.0F;       ///< noise of the darkest place [grey levels]
+constexpr float kUneven = 0.08F;         ///< part of the haze that nearer objects may lack
+constexpr double kMinDifference = 25.0;  ///< least between the reference's frame and surround [grey levels]
+constexpr double kClearOfNoise = 5.0;    ///< standard deviations by which the rest must exceed noise
+constexpr double kTurn_rad =
+    0.05;  ///< standard deviation of the difference's direction, from paint and light
+constexpr double kMaxThroughHaze = 0.45;  ///< distance: 0.25 and less in fog, 0.7 for other paint
 
 }  // namespace
 

@@ -13,22 +13,23 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr int kMinBandPixels = 40;        ///< fewer pixels in a band are not compared
-constexpr double kGuessedFrame = 0.05;    ///< width of a frame that fills the image [mean sides of it]
+constexpr int kMinBandPixels = 40;  ///< a band with fewer pixels is not compared
+constexpr double kGuessedFrame =
+    0.05;  ///< assumed frame width where the target fills the image [mean image sides]
 constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
-constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
-constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
-constexpr double kElsewhereScale = 0.4;   ///< size of those places, in that of the opening
-constexpr int kElsewhereSteps = 7;        ///< positions each way
-constexpr double kOwnRing = 0.25;         ///< places on the frame are left out: within this of the border
-constexpr double kEvenDistance = 0.8;     ///< in limits: where target and others are equally likely
-constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
+constexpr double kElsewherePart = 0.1;    ///< quantile of the distances at other places: `elsewhere_`
+constexpr double kLimitPart = 0.6;  ///< of `elsewhere_`: the limit, somewhat nearer to it than to the target
+constexpr double kElsewhereScale = 0.4;  ///< size of the other places [openings]
+constexpr int kElsewhereSteps = 7;       ///< positions in each direction
+constexpr double kOwnRing = 0.25;      ///< places this close to the border lie on the frame and are left out
+constexpr double kEvenDistance = 0.8;  ///< distance at which target and others are equally likely [limits]
+constexpr double kHalvingDistance = 0.2;  ///< distance that halves the odds [limits]
 
 std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening) {
   return ringColours(image, opening, kMinBandPixels);
 }
 
-// The opening of an image that is the target with its frame.
+// The assumed opening of an image that shows only the target and its frame.
 Quadrilateral withinFrame(const cv::Size& size) {
   const double w = size.width - 1.0, h = size.height - 1.0, d = kGuessedFrame * 0.5 * (w + h);
   return {Vector2d(d, d), Vector2d(w - d, d), Vector2d(w - d, h - d), Vector2d(d, h - d)};
@@ -47,7 +48,7 @@ bool touchesFrame(const Vector2d& centre) {
   return std::abs(off) < 0.5 * kElsewhereScale + kOwnRing * kElsewhereScale;
 }
 
-// Distances of rings at other places of the image, whether there is something or not.
+// Distances of rings at other places of the image, whatever they show.
 std::vector<double> distancesElsewhere(const cv::Mat& image, const Quadrilateral& opening,
                                        const RingColours& colours) {
   std::vector<double> distances;
@@ -69,7 +70,7 @@ double lowQuantile(std::vector<double> values) {
   return *place;
 }
 
-// 1 at the even distance, doubled or halved with each further step; colours that are everywhere tell less.
+// 1 at kEvenDistance, halved with each kHalvingDistance. Colours found everywhere change the odds less.
 double oddsOf(double distance, double limit, double elsewhere) {
   const double power = std::min(1.0, elsewhere / limit);
   return std::exp2(power * (kEvenDistance - distance / limit) / kHalvingDistance);

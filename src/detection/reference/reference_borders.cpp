@@ -15,26 +15,25 @@ using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
 constexpr double kBorderInward =
-    0.14;  ///< borders are looked for so far inside a rough loop, in mean sides of it
-constexpr double kBorderOutward = 0.40;  ///< borders are looked for so far outside a rough loop
-constexpr double kUnlikeScale =
-    0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
-constexpr double kContrastFull =
-    10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
-constexpr double kStepFull = 0.06;  ///< difference of the colours on both sides of a border that counts fully
-constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness beside chroma
+    0.14;  ///< borders are searched this far inside a rough loop [its mean sides]
+constexpr double kBorderOutward = 0.40;  ///< borders are searched this far outside it [its mean sides]
+constexpr double kUnlikeScale = 0.10;    ///< colour difference that reduces a border's worth by a factor of e
+constexpr double kContrastFull = 10.0;   ///< least change of the mean colour at a frame's end [grey levels]
+constexpr double kStepFull = 0.06;       ///< colour difference across a border that counts fully
+constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness against chroma
 constexpr double kClear = 0.006;            ///< nearer to a border colours are mixed [mean sides]
-constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
-constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
-constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
+constexpr double kFaintestFrame =
+    0.10;                           ///< least difference of frame and wall; bricks and joints differ by 0.08
+constexpr double kEndReach = 0.03;  ///< search range about the expected end of a frame [mean sides]
+constexpr double kPeakPart = 0.7;   ///< of the largest change nearby, which the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
-constexpr float kHazeFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
+constexpr float kHazeFrom = 40.0F;    ///< haze is possible if the darkest place is brighter [grey levels]
 constexpr double kNoHaze = 1e3;
-constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
-constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
-constexpr double kForetold = 0.8;         ///< worth of such a border
+constexpr double kFarAway = 1.5;   ///< standard deviation of a border from the rough loop [kBorderInward]
+constexpr double kSureEnd = 0.95;  ///< match of a frame's end that predicts the border without an edge
+constexpr double kForetold = 0.8;  ///< worth of a border predicted by its frame's end
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
-constexpr double kMinChange = 3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
+constexpr double kMinChange = 3.0;        ///< least change of the mean colour at a border [grey levels]
 
 Vector3f features(const Vector3f& bgr) {
   const float sum = bgr.sum() + 12.0F;
@@ -47,7 +46,6 @@ double difference(const Vector3f& a, const Vector3f& b) {
 
 }  // namespace
 
-// The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
                                const geometry::PinholeCamera* lens, const Effort& effort) {
   measureSides(image, ideal, lens, {kBorderInward, kBorderOutward, aspect_, effort.along, effort.across},
@@ -66,7 +64,7 @@ bool ReferenceBorders::coloursFrom(const SideProfile& profile, double border, Ba
   return true;
 }
 
-// Their features, brightness relative to the outermost.
+// Features of the bands; brightness relative to the outermost band.
 ReferenceBorders::Bands ReferenceBorders::featuresOf(const Bands& colours) {
   Bands bands;
   for (int b = 0; b < kBands; ++b) bands[b] = features(colours[b]);
@@ -82,7 +80,7 @@ double ReferenceBorders::unlike(const Bands& colours, int side) const {
   return sum / kBands;
 }
 
-// The same through the haze that fits best, if there may be one.
+// As `unlike`, after removal of the haze that fits best; kNoHaze if none is possible.
 double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const {
   const Bands& wanted = reference_colours_[side];
   const Vector3f &wall = colours[kBands - 1], &wanted_wall = wanted[kBands - 1];
@@ -116,8 +114,7 @@ void ReferenceBorders::learn(const cv::Mat& image, const Quadrilateral& opening)
   known_ = true;
 }
 
-// How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
-// always.
+// How well the frame's width matches the reference's; 1 also where the reference shows no end of the frame.
 double ReferenceBorders::frameEnds(int side, double border) const {
   if (frame_widths_[side] <= 0.0) return 1.0;
   const SideProfile& profile = sides_[side];
@@ -128,8 +125,7 @@ double ReferenceBorders::frameEnds(int side, double border) const {
          (1.0 - kWithoutEnd) * (near > kMinChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
 
-// The edge from which outwards the colours are most like those of the reference, and inwards are not; its
-// worth.
+// The edge whose outward colours best match the reference while the colour inside differs; returns its worth.
 double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const int count = static_cast<int>(profile.means.size());
@@ -151,7 +147,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     Vector3f beside = features(bands[0]);
     beside[2] -= features(bands[kBands - 1])[2];
     const double goes_on = difference(within, beside);
-    // Where the end of the frame tells the place, a faint border will do.
+    // Where the frame's end gives the position, a faint border suffices.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kBorderInward / kFarAway;
     const double worth = std::exp(-off / kUnlikeScale - 0.5 * away * away) * visible;

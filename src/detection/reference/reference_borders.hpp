@@ -11,24 +11,23 @@
 
 namespace window_ingress::detection {
 
-/// Which of the borders that lie in each other, frame's outer and inner one, far edge of the reveal, panes,
-/// is the front inner border of the opening: side by side the one from which outwards the colours follow each
-/// other as they do in the reference image. Frame and wall lie in the plane of the opening, so that the
-/// order and the widths of their colours are the same from any direction; what is seen through the opening is
-/// not looked at.
+/// Finds the front inner border of the opening among nested borders: outer and inner border of the frame, far
+/// edge of the reveal, panes. Each side is placed at the edge whose outward colour sequence best matches the
+/// reference image. Frame and wall lie in the plane of the opening, so the order and widths of their colours
+/// are the same from any direction. What is seen through the opening does not count.
 class ReferenceBorders {
  public:
   static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
-  static constexpr double kSureWorth = 0.3;  ///< of borders that are surely the reference's
+  static constexpr double kSureWorth = 0.3;  ///< worth of borders that surely match the reference
 
   /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { known_ = false; }
   bool known() const { return known_; }
 
-  /// True if the reference shows no frame: then there are no colours to go by, see `RingMatcher`.
+  /// True if the reference shows no frame. Then its colours do not help, see `RingMatcher`.
   bool frameless() const { return known_ && frameless_; }
 
   /// Samples along a side and across it.
@@ -38,11 +37,10 @@ class ReferenceBorders {
   static constexpr Effort kCoarse = {8, 64}, kFine = {24, 140};
 
   struct Located {
-    geometry::Quadrilateral
-        quad;  ///< pixels of the image as it came; each side to two pixels or so, for the fit to start from
-    double worth = 0.0;  ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
+    geometry::Quadrilateral quad;  ///< raw pixels; sides accurate to about two pixels, a start for the fit
+    double worth = 0.0;            ///< geometric mean of the worst side's and the mean worth, 0 to 1
   };
-  /// \param rough some loop of the window, pixels of the image as it came
+  /// \param rough quadrilateral of the window, raw pixels
   /// \return nothing if there is no colour, or a side has no edge at all
   std::optional<Located> locate(const cv::Mat& image, const geometry::Quadrilateral& rough,
                                 const geometry::PinholeCamera* camera, const Effort& effort);
@@ -61,13 +59,13 @@ class ReferenceBorders {
 
   bool known_ = false;
   double aspect_ = 1.0;  ///< of the opening: width over height
-  /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.
+  /// Per side: red and green chromaticity, logarithm of brightness relative to the outermost band.
   std::array<Bands, 4> reference_;
   std::array<Bands, 4> reference_colours_;  ///< BGR
   std::array<double, 4> frame_widths_{};    ///< [mean sides of the opening]; 0: no end seen
   bool frameless_ = false;
   std::array<SideProfile, 4> sides_;
-  float darkest_ = 0.0F;  ///< least channel in them
+  float darkest_ = 0.0F;  ///< least channel in `sides_`
 };
 
 }  // namespace window_ingress::detection

@@ -11,36 +11,35 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kMaxCertain = 0.99;        ///< of a score before the reference is asked
-constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
-constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
-constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
+constexpr double kMaxCertain = 0.99;        ///< of a score, before the reference is compared
+constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are searched
+constexpr std::size_t kPlacesFine = 3;      ///< best places, which are searched finely
+constexpr int kVariantsLocated = 2;         ///< loops per place from which the search starts
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
-constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
-constexpr double kFaithfulBehind = 0.9;  ///< of a wall without a frame, where something stands before it
-constexpr double kSureUncovered = 0.92;  ///< hardly anything else looks like that
+constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< limits round a frame, see RingMatch
+constexpr double kFaithfulBehind = 0.9;  ///< the limit for a covered wall without a frame
+constexpr double kSureUncovered = 0.92;  ///< hardly anything but the target reaches this
 constexpr double kNeverSure = 2.0;       ///< more than any correlation
-constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlation, where no frame's colours tell
+constexpr double kSureOfWall = 0.68,
+                 kSureOfFrame = 0.85;  ///< correlations that suffice without a frame's colours
 constexpr int kAllBorders = 4;
-constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
-constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
+constexpr int kOpenBorders = 3;            ///< borders whose inside must differ from the outside
+constexpr double kMinClearContrast = 0.8;  ///< of a ring without haze, over its correlation
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
-constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
-constexpr double kUnlocatedPart =
-    0.7;  ///< of its score keeps a loop whose borders are not those of the reference
+constexpr double kMinStep = 0.12;       ///< relative difference of mean colours; true openings have 0.2 to 1
+constexpr double kUnlocatedPart = 0.7;  ///< factor of the score of a loop that lacks the reference's borders
 
-// Colours.
 bool differ(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return (a - b).norm() > 0.5 * kMinStep * (a + b).norm();
 }
 
-// Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
+// Bayes: treats the score as a probability below certainty, and applies these odds.
 double updated(double score, double odds) {
   const double prior = std::min(score, kMaxCertain);
   return prior * odds / (1.0 - prior + prior * odds);
 }
 
-// Of all loops about the same place the likeliest ones; the others are variants of them.
+// Keeps the likeliest loops at each place; the others are variants of them.
 void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::size_t>& places) {
   places.clear();
   for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
@@ -55,7 +54,7 @@ void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::s
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
     : appearance_(params.appearance), min_correlation_(params.min_correlation) {}
 
-// A grey image as one of three equal channels.
+// Converts a grey image to three equal channels.
 const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& image) {
   if (image.channels() != 1) return image;
   cv::cvtColor(image, channels_, cv::COLOR_GRAY2BGR);
@@ -81,7 +80,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), 1);
 }
 
-// The rival with its borders where the reference's are, if they are found near it.
+// The rival with its borders moved to the reference's, if they are found near it.
 std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
                                                       const geometry::PinholeCamera* camera,
                                                       const ScoredCandidate& rough,
@@ -100,7 +99,7 @@ std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
   return rival;
 }
 
-// The borders of the reference at all places where they are found; the best are looked at closely.
+// Finds the reference's borders at all places, and searches the best ones finely.
 void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                const std::vector<ScoredCandidate>& rivals) {
   located_.clear();
@@ -112,7 +111,7 @@ void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCame
     if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
 }
 
-// Compares their frames with the reference's; false if none can be compared.
+// Compares the rivals' frames with the reference's; false if none can be compared.
 bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
   bool any = false;
   for (ScoredCandidate& rival : rivals) {
@@ -123,7 +122,7 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& r
   return any;
 }
 
-// Loops whose borders were not located count less; not at all where others have surely been.
+// Lowers the score of loops whose borders were not located. Drops those where borders were surely located.
 void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
   for (ScoredCandidate& rival : rivals) {
     const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
@@ -165,7 +164,8 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
   return true;
 }
 
-// A frame in a paint of its own is found by that; a place that may lean comes to fit three sides of another.
+// A frame in its own paint is found by that paint. There, leaning places would fit three sides of another
+// window.
 std::vector<ScoredCandidate> ReferenceJudge::placesEverywhere(const cv::Mat& image) {
   if (!knowsSurroundings(image)) return {};
   return ring_.placesEverywhere(inChannels(image), !hasOwnFrame());
@@ -176,8 +176,8 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& matc
   return Rejection{RejectReason::kAppearance, match.distance, match.limit};
 }
 
-// Round a frame the correlation counts only as far as the contrasts are the reference's; what is covered may
-// be left out. All of it counts where the frame's colours are the reference's, too.
+// Round a frame, correlation counts only as far as contrasts match the reference; covered parts may be left
+// out. All of the ring counts if the frame's colours match, too.
 std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
                                                      const std::optional<AppearanceMatch>& frame) const {
   const auto below = [this](double value, double least) -> std::optional<Rejection> {
@@ -201,7 +201,7 @@ bool ReferenceJudge::frameTells(const cv::Mat& image, double worth) const {
   return !knowsSurroundings(image) || (hasOwnFrame() && worth > ReferenceBorders::kSureWorth);
 }
 
-// The colours of a frame that are its own tell it from one in another paint, which correlates as well.
+// A frame's own colours tell the frame from one in another paint, which correlates as well.
 double ReferenceJudge::sureCorrelation() const {
   if (frameless()) return kSureOfWall;
   return hasOwnFrame() ? kNeverSure : kSureOfFrame;

@@ -18,8 +18,7 @@
 
 namespace window_ingress::detection {
 
-/// Which of the rivals is the target that the reference shows (P9): where its borders are, how far its
-/// colours and its shape are those of the reference.
+/// Judges which rival is the target in the reference image (P9), by its borders, colours and shape.
 class ReferenceJudge {
  public:
   explicit ReferenceJudge(const DetectorParams& params);
@@ -28,55 +27,55 @@ class ReferenceJudge {
   void learn(std::shared_ptr<const ReferenceAppearance> reference);
   const std::shared_ptr<const ReferenceAppearance>& reference() const { return reference_; }
 
-  /// True if rivals can be told apart by the colours about their borders.
+  /// True if rivals can be compared by the colours about their borders.
   bool knowsBorders() const { return borders_.known(); }
 
   /// True if the reference shows no frame.
   bool frameless() const { return borders_.frameless(); }
 
-  /// Colour of the reference's frame, see `RingMeans::paint`; nothing where it has none.
+  /// Colour of the reference's frame, see `RingMeans::paint`; nothing if it has none.
   std::optional<Eigen::Vector3f> paint() const;
 
-  /// True if what lies round the reference's opening can be compared with the image.
+  /// True if the surroundings of the reference's opening can be compared with the image.
   bool knowsSurroundings(const cv::Mat& image) const { return compares(image) && ring_.known(); }
 
-  /// False if there is no reference or only one of reference and image has colours.
+  /// False without a reference, or if only one of reference and image has colour.
   bool compares(const cv::Mat& image) const;
 
-  /// Weighs the rivals by their frames; adds those whose borders it located. False, and nothing changed, if
-  /// they cannot be compared.
+  /// Weighs the rivals by their frames and adds rivals with located borders. Returns false, and changes
+  /// nothing, if they cannot be compared.
   bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
                    std::vector<ScoredCandidate>& rivals);
 
-  /// Adds the places that have round them what lies round the reference's opening; no other rival may be the
-  /// target then. False, and nothing changed, if they cannot be compared.
+  /// Adds the places whose surroundings match the reference's; no other rival may be the target then. Returns
+  /// false, and changes nothing, if they cannot be compared.
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                          std::vector<ScoredCandidate>& rivals);
 
-  /// From now on something stands before what lies round the opening, or nothing does.
+  /// Sets whether something stands before the opening's surroundings.
   void setCovered(bool covered) { covered_ = covered, ring_.setCovered(covered); }
 
-  /// Rivals for that from the whole image, without any edge; none if it cannot be compared.
+  /// Rivals for `judgeSurroundings` from the whole image, found without edges; none if it cannot be compared.
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
 
-  /// True if the colours of a frame may tell the target alone, whatever lies round it: they are found nowhere
-  /// else in the reference, and its borders here are surely the reference's; or nothing else is known.
+  /// True if the frame's colours alone may identify the target, whatever its surroundings. Its colours must
+  /// occur nowhere else in the reference, and its borders must surely match; or nothing else is known.
   /// \param worth of the borders, see ScoredCandidate
   bool frameTells(const cv::Mat& image, double worth) const;
 
-  /// How many borders must show where this fits: the fewer, the less anything else can be like it.
+  /// Number of borders that must be visible with this match: fewer for a match that is harder to mistake.
   int bordersNeeded(const RingMatch& match) const;
 
   /// Why the colours of a frame are not the reference's (P9).
   std::optional<Rejection> objectionTo(const AppearanceMatch& match) const;
 
-  /// Why what lies round a place is not what lies round the reference's opening.
-  /// \param frame its colours, where they can be compared
+  /// Why the surroundings of a place are not the reference's.
+  /// \param frame match of the frame's colours, where they can be compared
   std::optional<Rejection> objectionTo(const RingMatch& match,
                                        const std::optional<AppearanceMatch>& frame) const;
 
-  /// Where what lies round a window near this place fits best; nothing where there is something else behind
-  /// its frame, as behind a gate. \param coarsest_px see RingMatcher
+  /// Best fit of the surroundings near this window. Nothing where something else lies behind its frame, as
+  /// behind a gate. \param coarsest_px see RingMatcher
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera, double coarsest_px);
 
@@ -87,22 +86,22 @@ class ReferenceJudge {
     return ring_.completed(corners, side);
   }
 
-  /// The same of surroundings that `surroundingsOf` found last; haze that took their contrasts is none.
+  /// Objection to the surroundings that `surroundingsOf` found last. Contrast lost to haze is no objection.
   std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,
                                        const std::optional<AppearanceMatch>& frame);
 
-  /// True if what lies within three of the borders, or as many as in the reference, differs from the wall
-  /// without: a wall whose pattern repeats itself looks like that round the opening elsewhere, too, but goes
-  /// on within.
+  /// True if the image inside three of the borders, or as many as in the reference, differs from the wall
+  /// outside. A wall with a repeating pattern can match the surroundings elsewhere, but there it continues
+  /// inside.
   bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
                     const geometry::PinholeCamera* camera);
 
-  /// True if a frame beside one of the sides is seen beyond its end, too, as it is not in the reference:
-  /// three sides are those of a larger window.
+  /// True if the frame of a side continues beyond the side's end where the reference's does not. Then three
+  /// sides belong to a larger window.
   bool frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
                    const geometry::PinholeCamera* camera);
 
-  /// Why fitted borders cannot be the reference's, if they cannot.
+  /// Why fitted borders cannot be the reference's; nothing if they can.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera);
 
@@ -127,13 +126,13 @@ class ReferenceJudge {
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
   std::optional<RingColours> frame_colours_;  ///< of the reference
-  int open_borders_ = 4;  ///< of the reference: within them something else is seen than without
+  int open_borders_ = 4;  ///< borders of the reference whose inside differs from the outside
   FrameEnds beyond_{};    ///< in the reference
   bool covered_ = false;
-  bool is_grey_ = false;  ///< the reference; then by brightness alone
+  bool is_grey_ = false;  ///< the reference is grey: only brightness counts
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;
-  std::vector<std::size_t> places_;  ///< of the rivals that are looked at
+  std::vector<std::size_t> places_;  ///< indices of the rivals to locate
   std::vector<ScoredCandidate> located_;
 };
 

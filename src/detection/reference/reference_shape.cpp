@@ -17,23 +17,22 @@ using Eigen::Vector3f;
 using geometry::PinholeCamera;
 using geometry::Quadrilateral;
 
-constexpr double kMaxSigmas = 3.0;      ///< by which a shape may differ from the reference's
-constexpr double kMaxFactor = 2.0;      ///< by which its aspect may differ where the camera is unknown
-constexpr double kFrameSlack = 0.15;    ///< and the width of a frame by this part besides
+constexpr double kMaxSigmas = 3.0;      ///< tolerance of a shape against the reference's
+constexpr double kMaxFactor = 2.0;      ///< tolerance of the aspect where the camera is unknown
+constexpr double kFrameSlack = 0.15;    ///< additional tolerance of the width of a frame
 constexpr double kSlopePx = 1e-3;       ///< step of numeric slopes [px]
 constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
-constexpr double kAspectSigma =
-    0.01;  ///< of the logarithm of the aspect: how well the reference shows it, at best
+constexpr double kAspectSigma = 0.01;   ///< of the logarithm of the reference's aspect, at best
 constexpr double kFrameSigmaPx = 0.03;  ///< standard deviation of the width of a frame [px]
 
 constexpr double kShapeInward = 0.02, kShapeOutward = 0.36;  ///< of the profiles [mean sides of the opening]
 constexpr double kThinnest = 0.015, kWidest = 0.14;          ///< frame [mean sides of the opening]
-constexpr double kBlur_px = 3.0;                             ///< nearer to the border its own edge shows
-constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;     ///< where the wall is, in widths of the frame
-constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;             ///< and the frame's own colour
-constexpr float kMinFrameContrast = 20.0F;                   ///< of frame and wall [grey levels]
+constexpr double kBlur_px = 3.0;                          ///< nearer to a border, the border's own edge shows
+constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;  ///< band of the wall [widths of the frame]
+constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;  ///< band of the frame's own colour [widths of the frame]
+constexpr float kMinFrameContrast = 20.0F;        ///< of frame and wall [grey levels]
 constexpr int kFewestSides = 3;
-constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
+constexpr double kScatter = 0.1;                               ///< part of the middle two widths' difference
 constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the image
 
 // The homography from the opening to lines of sight.
@@ -43,13 +42,13 @@ Eigen::Matrix3d sightOf(const Quadrilateral& ideal, const PinholeCamera& camera)
   return geometry::UnitSquare(rays).matrix();
 }
 
-// NaN for what is no rectangle's image.
+// NaN if this is no rectangle's image.
 double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
   const Eigen::Matrix3d map = sightOf(ideal, camera);
   return map.col(0).norm() / map.col(1).norm();
 }
 
-// By cameras of all likely focal lengths.
+// Aspects for all likely focal lengths.
 std::array<double, std::size(kFocalLengths)> likelyAspects(const Quadrilateral& quad, const cv::Size& image) {
   std::array<double, std::size(kFocalLengths)> aspects{};
   PinholeCamera camera;
@@ -61,16 +60,16 @@ std::array<double, std::size(kFocalLengths)> likelyAspects(const Quadrilateral& 
   return aspects;
 }
 
-// What is 0 of a rectangle of this aspect from anywhere: the logarithm of the aspect over it, and the cosine
-// between its sides.
+// Two quantities that are 0 for any view of a rectangle of this aspect: the logarithm of the seen aspect over
+// this one, and the cosine between the sides.
 Vector2d offRectangle(const Quadrilateral& ideal, const PinholeCamera& camera, double aspect) {
   const Eigen::Matrix3d map = sightOf(ideal, camera);
   const double width = map.col(0).norm(), height = map.col(1).norm();
   return {std::log(width / height / aspect), map.col(0).dot(map.col(1)) / (width * height)};
 }
 
-// Width of the frame beside the border at 0, edge to edge whatever the blur: colours between frame and wall
-// count by their part of frame. 0 where frame and wall cannot be told apart.
+// Width of the frame beside the border at 0, edge to edge at any blur: mixed colours count by their share of
+// frame. 0 where frame and wall cannot be told apart.
 double paintedWidth(const SideProfile& side, double expected) {
   Vector3f wall;
   if (!side.mean(kSurroundFrom * expected, kSurroundTo * expected, wall)) return 0.0;
@@ -88,7 +87,7 @@ double paintedWidth(const SideProfile& side, double expected) {
   return width;
 }
 
-// Mean of the two middle ones, whose difference is part of its spread.
+// Mean of the two middle values; their difference adds to its spread.
 Measured middleOf(std::vector<double>& values, double least_sigma) {
   std::sort(values.begin(), values.end());
   const double low = values[(values.size() - 1) / 2], high = values[values.size() / 2];
@@ -97,8 +96,8 @@ Measured middleOf(std::vector<double>& values, double least_sigma) {
 
 }  // namespace
 
-// Chi of what must be 0, its covariance by the slopes: for small misfits what a fit of pose and aspect
-// leaves.
+// Chi of the two quantities, with their covariance by the slopes. For small misfits it equals what a fit of
+// pose and aspect leaves.
 std::optional<double> rectangleMisfit(const Quadrilateral& ideal, const std::array<Matrix2d, 4>& covariance,
                                       const PinholeCamera& camera, const OpeningAspect& aspect) {
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;

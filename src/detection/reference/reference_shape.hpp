@@ -15,39 +15,38 @@
 namespace window_ingress::detection {
 
 /// How badly four corners fit any view of a rectangle of a known aspect [standard deviations]: chi with two
-/// degrees of freedom, where the corners are what they are said to be. Eight coordinates are seen, a pose has
-/// six numbers; what is left are the aspect and the angle between the sides, see RectanglePrior.
+/// degrees of freedom, if the corners have the given covariance. Eight coordinates are seen and a pose has
+/// six numbers; the remaining two are the aspect and the angle between the sides, see RectanglePrior.
 /// \param ideal pixels of the undistorted image, canonical order
 /// \param covariance of each corner [px^2]
-/// \return nothing for what is not convex or not finite
+/// \return nothing for corners that are not convex or not finite
 std::optional<double> rectangleMisfit(const geometry::Quadrilateral& ideal,
                                       const std::array<Eigen::Matrix2d, 4>& covariance,
                                       const geometry::PinholeCamera& camera, const OpeningAspect& aspect);
 
-/// A value as far as an image tells.
+/// A value measured in an image.
 struct Measured {
   double value = 0.0, sigma = 0.0;
 };
 
-/// The target's shape as the reference image shows it: aspect of the opening, and the width of its frame
-/// relative to the opening's sides. Both stay the same from anywhere; size does not show in one image.
+/// The target's shape in the reference image: aspect of the opening, and width of its frame relative to the
+/// opening's sides. Both are the same from any viewpoint; one image does not show size.
 class ReferenceShape {
  public:
-  /// \param image by an unknown camera: its focal length is taken to be half to twice the longer side
+  /// \param image from an unknown camera, whose focal length is assumed to be half to twice the longer side
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { aspect_.reset(), frame_.fill(0.0); }
 
-  /// Of the opening; nothing before `learn`.
+  /// Aspect of the opening; nothing before `learn`.
   std::optional<OpeningAspect> aspect() const;
 
-  /// Why a shape is not the reference's; nothing where it is, or that cannot be told.
-  /// \param corners fitted, pixels of the image as it came; \param camera null: unknown, as in `learn`; only
-  /// coarsely told then
+  /// Why a shape is not the reference's; nothing if it is, or if that cannot be decided.
+  /// \param corners fitted, raw pixels \param camera null: unknown, as in `learn`; then the test is coarse
   std::optional<Rejection> inAspect(const geometry::Quadrilateral& corners,
                                     const std::array<Eigen::Matrix2d, 4>& covariance, const cv::Size& image,
                                     const geometry::PinholeCamera* camera) const;
 
-  /// Middle of the four sides' widths, each over the reference's: one side may be hidden, or have a sill.
+  /// Tests the median of the four sides' widths over the reference's: one side may be hidden or have a sill.
   std::optional<Rejection> inFrame(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                    const geometry::PinholeCamera* camera);
 

@@ -12,18 +12,18 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kBinSteps = 16;      ///< places between two bins
+constexpr int kBinSteps = 16;      ///< positions between two bins
 constexpr int kMinColourSum = 45;  ///< sum of the channels below which chroma is noise
 constexpr double kTop = 0.80;      ///< chromaticity at the last bin; the first is at 0
 constexpr double kBandWeight[RingHistogram::kBands] = {2.0, 1.0};
-/// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
+/// Sharing a pixel between bins smooths the sample and reduces its variance to this part.
 constexpr double kSharing = 4.0 / 9.0;
 
 constexpr float kMinPaint = 0.05F;  ///< of chromaticities
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
 
-/// 65536 times the places a chromaticity of value / sum lies from the first bin, per value.
+/// Per sum: 65536 times the number of positions by which a unit of value moves the chromaticity.
 std::array<std::uint32_t, 766> reciprocals() {
   std::array<std::uint32_t, 766> table{};
   for (int sum = 1; sum < 766; ++sum)
@@ -106,13 +106,13 @@ RingMeans meansOf(const RingSamples& samples) {
   return means;
 }
 
-// 1 - sum sqrt(p q), less what samples of these sizes show even if the colours are the same.
+// 1 - sum sqrt(p q), less the expected value for samples of these sizes from equal colours.
 double divergence(const RingHistogram::Band& a, const RingHistogram::Band& b) {
   const auto m = static_cast<float>(b.pixels);
   float alike = 0.0F, spread = 0.0F;
   for (int i = 0; i < RingHistogram::kCells; ++i) {
     alike += std::sqrt(a.share[i] * b.share[i]);
-    spread += (1.0F - a.share[i]) * std::min(1.0F, m * a.share[i]);  // a bin without pixels adds none
+    spread += (1.0F - a.share[i]) * std::min(1.0F, m * a.share[i]);  // a bin without pixels adds nothing
   }
   return 1.0 - alike - kSharing * spread / 8.0 * (1.0 / a.pixels + 1.0 / b.pixels);
 }

@@ -9,29 +9,29 @@
 
 namespace window_ingress::detection {
 
-/// Colour of the ring round an opening: for each band a histogram of the chromaticities r = R / (R + G + B)
-/// and g, each pixel shared between the four bins round it. What is seen through the opening, and how bright
-/// things are, does not count.
+/// Colour of the ring round an opening: per band a histogram of the chromaticities r = R / (R + G + B) and g.
+/// Each pixel is shared between the four nearest bins. Brightness, and what is seen through the opening, do
+/// not count.
 struct RingHistogram {
   static constexpr int kBands = 2;  ///< frame, surround
   static constexpr int kBins = 8, kCells = kBins * kBins;
 
   struct Band {
     std::array<float, kCells>
-        share{};          ///< of the band's pixels; their sum is 1, or 0 if the band is not seen
-    double pixels = 0.0;  ///< different pixels of the image in it; 0: too few to count
+        share{};          ///< of the band's pixels; the sum is 1, or 0 if the band is not visible
+    double pixels = 0.0;  ///< distinct image pixels in it; 0: too few to count
   };
   std::array<Band, kBands> bands;
 };
 
-/// Mean colours of a ring, for what haze leaves: differences.
+/// Mean colours of a ring; haze preserves the direction of their difference.
 struct RingMeans {
   Eigen::Vector3f frame = Eigen::Vector3f::Zero(), surround = Eigen::Vector3f::Zero();  ///< BGR
-  double sigma = 0.0;    ///< of their difference, by the spread of their pixels [grey levels]
+  double sigma = 0.0;    ///< of their difference, from the spread of the pixels [grey levels]
   double darkest = 0.0;  ///< least channel of ring and opening [grey levels]
 
-  /// Direction of chromaticity from the surround to the frame, BGR, length 1, sum 0; nothing where the frame
-  /// has no colour of its own, or that of the surround.
+  /// Direction of chromaticity from the surround to the frame, BGR, length 1, sum 0. Nothing where the frame
+  /// has no colour of its own, or the surround's colour.
   std::optional<Eigen::Vector3f> paint() const;
 };
 
@@ -41,24 +41,24 @@ struct RingColours {
   RingMeans means;
 };
 
-/// Measures a ring; allocates nothing.
+/// Measures a ring without allocation.
 /// \param image CV_8UC3; anything else has no colour
-/// \param min_pixels a band with fewer is not seen
-/// \return nothing if the frame's band is not seen, or the whole image is grey
+/// \param min_pixels a band with fewer is not visible
+/// \return nothing if the frame's band is not visible, or the whole image is grey
 std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                        int min_pixels);
 
 /// Bhattacharyya distance of two rings, sqrt(1 - sum sqrt(p q)): 0 alike, 1 disjoint, bands weighted two to
-/// one. Two samples of n and m pixels of the same colours are not at distance 0: the expected sum falls short
-/// of 1 by sum over bins (1 - p) (1/n + 1/m) / 8 (second order of the square root about its mean; n of 1 -
-/// sum times 8 is Freeman and Tukey's statistic, chi-square in the limit). That much is taken off.
+/// one. The distance of two samples of n and m pixels of the same colours is not 0: their expected sum is
+/// less than 1 by sum over bins (1 - p) (1/n + 1/m) / 8. (Second order of the square root about its mean; n
+/// of 1 - sum times 8 is Freeman and Tukey's statistic, chi-square in the limit.) This bias is subtracted.
 double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 
-/// The smaller of the distances as seen and through haze.
+/// The smaller of the plain distance and the distance through haze.
 double bhattacharyya(const RingColours& reference, const RingColours& seen);
 
-/// Moves the histogram of `from` towards that of `to`: 0 leaves it, 1 replaces it. Bands that either has not
-/// seen stay as they are, and so do the means.
+/// Moves the histogram of `from` towards that of `to`: 0 leaves it, 1 replaces it. The means, and bands that
+/// are not visible in both, do not change.
 RingColours blended(const RingColours& from, const RingColours& to, double part);
 
 }  // namespace window_ingress::detection

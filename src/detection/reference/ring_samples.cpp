@@ -11,11 +11,11 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr double kClearPx = 1.5;   ///< pixels nearer to the border are mixed with what is seen through it
+constexpr double kClearPx = 1.5;   ///< pixels nearer to the border mix with those of the opening
 constexpr int kFewest = 6;         ///< samples along a side
 constexpr int kClipped = 750;      ///< sum of the channels above which one of them is clipped
-constexpr int kGrid = 6;           ///< lines through the opening, in search of its darkest part
-constexpr double kIgnored = 0.02;  ///< part of the pixels that may be darker than the darkest
+constexpr int kGrid = 6;           ///< lines through the opening to find its darkest part
+constexpr double kIgnored = 0.02;  ///< part of the pixels that may be darker than `darkest`
 
 /// Counts of the least channel, in steps of four grey levels.
 class DarkCounts {
@@ -36,7 +36,7 @@ class DarkCounts {
   int all_ = 0;
 };
 
-/// A line of samples in the plane of the window: homogeneous pixels are linear along it.
+/// A line of samples in the plane of the window. Homogeneous pixels are linear along it.
 struct SampleLine {
   Eigen::Vector3d start, step;
   int count = 0;
@@ -67,7 +67,7 @@ void forEachPixel(const cv::Mat& image, const SampleLine& line, const Use& use) 
       use(image.ptr<cv::Vec3b>(row[k])[column[k]]);
 }
 
-/// Corners of the ring's line at the distance `out` from the unit square, canonical order.
+/// Corners of the line at the distance `out` round the unit square, canonical order.
 std::array<Vector2d, 4> ringCorners(const Vector2d& out) {
   return {Vector2d(-out.x(), -out.y()), Vector2d(1 + out.x(), -out.y()), Vector2d(1 + out.x(), 1 + out.y()),
           Vector2d(-out.x(), 1 + out.y())};
@@ -80,7 +80,7 @@ struct MeasuredOpening {
     girth = sides[0] + sides[1] + sides[2] + sides[3];
     mean = 0.25 * girth;
   }
-  /// A distance in mean sides, in those of the unit square.
+  /// Converts a distance from mean sides to sides of the unit square.
   Vector2d inUnits(double out) const {
     return {2.0 * out * mean / (sides[0] + sides[2]), 2.0 * out * mean / (sides[1] + sides[3])};
   }

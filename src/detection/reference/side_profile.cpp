@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 
 constexpr int kFewestAcross = 12;
 
-// Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
+// Point beside side `i` of the unit square: t along the side, `out` outwards [sides].
 Vector2d beside(int i, double t, double out) {
   switch (i) {
     case geometry::kTop:
@@ -28,7 +28,7 @@ Vector2d beside(int i, double t, double out) {
   }
 }
 
-// Mean along side `i`; false if less than a third of it lies within the image.
+// Mean colour along side `i`; false if less than a third of the side lies within the image.
 bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geometry::PinholeCamera* lens,
                int i, double out, const ProfileReach& reach, Vector3f& mean) {
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;
