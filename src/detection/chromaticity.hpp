@@ -4,7 +4,7 @@
 
 namespace window_ingress::detection {
 
-/// Parts of the channels in their sum, BGR; of dark pixels, which know little of it, less. \param pixel BGR
+/// Shares of the channels in their sum, BGR; reduced for dark pixels, whose colour is noisy. \param pixel BGR
 /// [grey levels]
 inline Eigen::Vector3f chromaticity(const Eigen::Vector3f& pixel) {
   constexpr float kDarkness = 30.0F;  ///< [grey levels]

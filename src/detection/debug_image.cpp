@@ -44,13 +44,13 @@ void write(cv::Mat& canvas, const std::string& text, int height) {
               cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
 }
 
-constexpr double kDim = 0.8;    ///< of the image's brightness remains, so that lines stand out
+constexpr double kDim = 0.8;    ///< part of the image's brightness that remains, so that lines stand out
 constexpr double kFaint = 0.4;  ///< strength of candidates that failed before they had a score
-constexpr int kLabels = 5;      ///< candidates that are explained in words
+constexpr int kLabels = 5;      ///< candidates explained in words
 
 bool hasScore(const CandidateTrace& candidate) { return candidate.score > 0.0; }
 
-// Duplicates say nothing that the better candidate does not say.
+// Duplicates tell nothing beyond the better candidate.
 bool isWorthWords(const CandidateTrace& candidate) {
   return candidate.reject != RejectReason::kNone && candidate.reject != RejectReason::kDuplicate &&
          candidate.reject != RejectReason::kCorners;
@@ -91,8 +91,7 @@ cv::Rect boxRound(const geometry::Quadrilateral& quad) {
   return cv::boundingRect(corners);
 }
 
-// What a gate stopped before what was only outscored; the most promising first; of those without a score the
-// largest.
+// Order: candidates that a gate stopped before those that were only outscored; then by score; then by area.
 bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
   const bool a_stopped = a->reject != RejectReason::kOutscored,
              b_stopped = b->reject != RejectReason::kOutscored;
@@ -101,7 +100,7 @@ bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
   return std::abs(geometry::signedArea(a->quad)) > std::abs(geometry::signedArea(b->quad));
 }
 
-// A few, each of another place.
+// Labels a few candidates, each at a different place.
 void explainBest(TextOverlay& lettering, const DetectionTrace& trace) {
   constexpr double kSamePlace = 0.5;
   std::vector<const CandidateTrace*> all, told;
@@ -155,7 +154,7 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 }  // namespace
 
 cv::Mat drawReference(const ReferenceAppearance& reference) {
-  cv::Mat grey = reference.image(), image;  // tints look alike on every frame
+  cv::Mat grey = reference.image(), image;  // so that tints look the same on every frame
   if (grey.channels() == 3) cv::cvtColor(reference.image(), grey, cv::COLOR_BGR2GRAY);
   cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
@@ -179,8 +178,7 @@ cv::Mat drawReference(const ReferenceAppearance& reference) {
 }
 
 cv::Scalar colourOf(RejectReason reason) {
-  // Eleven hues that leave out the target's green; pale for the first gates, strong for those that come
-  // later.
+  // Eleven hues without the target's green: pale for the first gates, strong for later ones.
   constexpr int kSteps = 11, kStride = 4, kHues = 180, kGreenest = 36, kGreenWidth = 50;
   const int index = static_cast<int>(reason);
   const int turned = index * kStride % kSteps * (kHues - kGreenWidth) / kSteps;

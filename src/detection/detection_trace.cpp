@@ -11,7 +11,7 @@ namespace {
 struct Wording {
   const char* name;      ///< in tables
   const char* quantity;  ///< measured by the gate
-  const char* relation;  ///< of the value to the limit when the gate rejects; empty: it has no measure
+  const char* relation;  ///< of value to limit when the gate rejects; empty: no measured quantity
 };
 
 /// In the order of `RejectReason`.
@@ -76,13 +76,13 @@ std::string describe(const CandidateTrace& candidate) {
   return text;
 }
 
-// Without a target: the reason of the candidate that came furthest.
+// Without a target: gives the reason of the candidate that passed the most gates.
 void explain(DetectionTrace& trace) {
   if (trace.target >= 0) {
     trace.outcome = RejectReason::kNone;
     return;
   }
-  // That one is like another candidate, or worse, explains nothing.
+  // Being a duplicate, or worse than another candidate, explains nothing.
   const auto rank = [](const CandidateTrace& c) {
     const bool tells = c.reject != RejectReason::kDuplicate && c.reject != RejectReason::kOutscored;
     return std::make_tuple(tells, c.score, c.reject);

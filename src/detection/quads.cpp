@@ -8,8 +8,8 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kSameQuadPx = 1.0, kSameQuad = 0.005;  ///< of corners; in sizes
-constexpr double kSamePlace = 0.2;                      ///< of corners, in sizes
+constexpr double kSameQuadPx = 1.0, kSameQuad = 0.005;  ///< distance of corners [px], [sizes]
+constexpr double kSamePlace = 0.2;                      ///< distance of corners [sizes]
 constexpr double kSameWindow = 0.6;                     ///< intersection over union
 
 }  // namespace

@@ -7,9 +7,10 @@
 
 namespace window_ingress::detection {
 
-inline constexpr double kSkip = 0.06;  ///< left out at both ends of a side: corners are rounded [its lengths]
+inline constexpr double kSkip =
+    0.06;  ///< skipped at both ends of a side, because corners are rounded [its lengths]
 
-/// Of vectors of the plane.
+/// Cross product of two vectors in the plane.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -21,18 +22,18 @@ double meanSide(const geometry::Quadrilateral& quad);
 /// How far the corner that differs most lies from its counterpart [px].
 double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);
 
-/// Of the corner nearest to the image's border, or furthest beyond it: then negative [px].
+/// Distance of the outermost corner from the image's border, negative outside the image [px].
 double distanceToBorder(const geometry::Quadrilateral& quad, const cv::Size& image);
 
-/// The camera if its lens bends the image, else null.
+/// The camera if its lens distorts the image, else null.
 const geometry::PinholeCamera* lensOf(const geometry::PinholeCamera* camera);
 
-/// Corners of the undistorted image and of the image as it came. \param lens null where they are the same
+/// Convert corners between raw and undistorted image. \param lens null: no distortion
 geometry::Quadrilateral undistorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
 geometry::Quadrilateral distorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
 
-/// Which others are the same as one quadrilateral, in the three senses in which detection asks. Its size sets
-/// how far they reach: ask the one that was chosen first about the newcomer, or a large loop takes a small
+/// Compares other quadrilaterals with one, in the three senses of sameness that detection uses. Tolerances
+/// follow from its size. Construct it from the quadrilateral chosen first, or a large loop takes a small
 /// window's place.
 class Sameness {
  public:
@@ -40,7 +41,7 @@ class Sameness {
 
   /// The same four edges: every corner within 1 px and 0.005 of its size.
   bool sameQuad(const geometry::Quadrilateral& other) const { return isWithin(other, same_px_); }
-  /// Edges of the same window, such as the two borders of its frame: every corner within 0.2 of its size.
+  /// Edges of the same window, for example both borders of its frame: every corner within 0.2 of its size.
   bool samePlace(const geometry::Quadrilateral& other) const { return isWithin(other, place_px_); }
   /// The same window: the intersection is more than 0.6 of the union.
   bool sameWindow(const geometry::Quadrilateral& other) const;

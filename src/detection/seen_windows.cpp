@@ -7,7 +7,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr std::size_t kMaxWindows = 12;
-constexpr double kSameSeen = 0.15;  // overlap of two loops, of their union
+constexpr double kSameSeen = 0.15;  // overlap of two loops, over their union
 
 bool looksOtherwise(RejectReason reason) {
   return reason == RejectReason::kAppearance || reason == RejectReason::kOtherAspect ||

@@ -9,15 +9,15 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kRefinementTries = 6;
-constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
-constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search found [px of its level]
-constexpr double kBlobRadius = 3.0;       ///< and where that is a blob's outline
-constexpr double kLocatedSigmaPx = 1.4;   ///< how well they are located
-constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the surroundings were aligned
-constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
-constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
-constexpr double kWholeRing = 0.9;        ///< correlation from which nothing of the ring is hidden
-constexpr int kAllSeen = 4;               ///< borders that show: each
+constexpr double kLocatedRadiusPx = 2.5;  ///< search reach of the fit for located borders [px]
+constexpr double kSearchRadius = 1.5;     ///< search reach for borders from the search [px of its level]
+constexpr double kBlobRadius = 3.0;      ///< search reach for borders from a blob's outline [px of its level]
+constexpr double kLocatedSigmaPx = 1.4;  ///< standard deviation of located borders [px]
+constexpr double kAlignedStrayPx = 2.0;  ///< distance of fitted borders from the aligned surroundings [px]
+constexpr double kCutAway = 0.01;        ///< how far a corner may lie outside the image [longer image sides]
+constexpr int kFewestSeen = 3;           ///< borders that must be visible where the surroundings were aligned
+constexpr double kWholeRing = 0.9;       ///< correlation above which nothing of the ring is hidden
+constexpr int kAllSeen = 4;              ///< all borders are visible
 
 // Correlation of the next best place.
 double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& rivals) {
@@ -35,8 +35,8 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   return rival.appearance ? params_.min_score_reference : params_.min_score;
 }
 
-// What was aligned must show its borders: the wall may have been closed.
-// Where all that lies round it is the reference's, it is enough that something else is seen within.
+// An aligned place must show its borders, because the opening may have been walled up. If all of its
+// surroundings match, it is enough that the inside differs from the wall.
 bool TargetChoice::showsOpening(const ScoredCandidate& rival, const RefinedBorders& found,
                                 const View& view) const {
   if (!rival.correlation) return true;
@@ -67,7 +67,7 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
-// A hidden side lies where it must by the borders of the three others.
+// A hidden side is placed from the borders of the three others.
 std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, const View& view) const {
   BorderStart start{ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx, ring.hidden};
   auto found = refinement_.run(view.image, start, view.camera);
@@ -85,7 +85,7 @@ std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrila
   return ring ? fitWhere(*ring, view) : std::nullopt;
 }
 
-// What another window has in common with the reference is aligned, too, and its borders contradict that.
+// Another window with common features is aligned, too; its borders contradict the alignment.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                            RefinedBorders& fitted) {
   const auto ring =
@@ -104,7 +104,7 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   return std::nullopt;
 }
 
-// Where all four borders show, they themselves have the reference's shape; the ring would give it to them.
+// Tests the shape of four visible borders first, because the ring would impose the reference's shape on them.
 std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const View& view,
                                            RefinedBorders& fitted) {
   double inliers = 0.0;
@@ -125,14 +125,14 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
   return std::nullopt;
 }
 
-// What stands before a side may end in an edge that was taken for its border.
+// The edge of an object before a side may have been mistaken for the side's border.
 void TargetChoice::uncover(const View& view, RefinedBorders& fitted) {
   const auto ring = reference_.uncovered(fitted.corners, view.image, view.camera);
   const auto anew = ring ? fitWhere(*ring, view) : std::nullopt;
   if (anew && std::count(anew->fitted.begin(), anew->fitted.end(), true) >= kFewestSeen) fitted = *anew;
 }
 
-// The best to which there is no objection and whose borders can be fitted.
+// Chooses the best candidate without an objection whose borders can be fitted.
 std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                                       const View& view) {
   search_factor_ = search_factor;

@@ -14,11 +14,11 @@
 
 namespace window_ingress::detection {
 
-/// Which of the scored candidates is the target: the best to which there is no objection and whose borders
-/// can be fitted. Notes in the trace what becomes of each.
+/// Chooses the target among the scored candidates: the best one without an objection whose borders can be
+/// fitted. Records the outcome for each candidate in the trace.
 class TargetChoice {
  public:
-  /// \param reference, trace outlive this
+  /// \param reference, trace must outlive this object
   TargetChoice(const DetectorParams& params, ReferenceJudge& reference, DetectionTrace& trace)
       : params_(params), reference_(reference), trace_(trace) {}
 
@@ -27,20 +27,18 @@ class TargetChoice {
     double stamp_sec;
     const geometry::PinholeCamera* camera;  ///< may be null
   };
-  /// \param rivals are sorted here \param search_factor pixels of the image a pixel of the search level
+  /// \param rivals are sorted here \param search_factor image pixels per pixel of the search level
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                           const View& view);
 
-  /// Correlation of what lies round the window that was chosen last with what lies round the reference's; 0
-  /// where that does not fit.
+  /// Correlation of the last chosen window's surroundings with the reference's; 0 if they do not fit.
   double ringThere() const { return ring_there_; }
 
-  /// The window that was chosen last is not the target: nothing like what lies round the reference's opening
-  /// lies round it.
+  /// Rejects the last chosen window, because its surroundings do not resemble the reference's at all.
   void takeBack();
 
-  /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
-  /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
+  /// Borders of a window near this place: the fit of the reference's surroundings, averaged with the visible
+  /// borders. Nothing without a camera, or where the surroundings do not fit.
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;
 
  private:

@@ -8,9 +8,9 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kShade = 0.35;   ///< of what is behind a text remains
-constexpr double kRoom = 1.7;     ///< height of a line, in that of its letters
-constexpr double kBoxPart = 0.6;  ///< of the canvas' height, at most
+constexpr double kShade = 0.35;   ///< part of the background brightness behind text
+constexpr double kRoom = 1.7;     ///< height of a line [letter heights]
+constexpr double kBoxPart = 0.6;  ///< height of a box, at most [canvas heights]
 const cv::Scalar kWhite(255, 255, 255);
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kSmallestSide = 16;   ///< no window can be found in a smaller image [px]
-constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
+constexpr double kSureRing = 0.85;  ///< correlation of surroundings that identifies a window surely
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -54,11 +54,11 @@ struct WindowDetector::Impl {
   DetectionTrace trace;
   TargetChoice choice;
   std::vector<ScoredCandidate> found_first, rivals;
-  std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, once it was asked for
+  std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, computed on demand
   StageTimer* watch = nullptr;
 };
 
-// Of the rivals that the reference has judged.
+// Chooses among the rivals that the reference has judged.
 std::optional<WindowObservation> WindowDetector::Impl::choose(const View& view) {
   done(watch, Stage::kReference);
   auto window = choice.choose(rivals, search.factor(), view);
@@ -73,14 +73,14 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const View& v
   return choose(view);
 }
 
-// What is a window by its geometry, and what may be one.
+// Gathers candidates that are windows by their geometry, and those that may be.
 void WindowDetector::Impl::gatherAll() {
   rivals = search.kept();
   const auto& open = search.open();
   rivals.insert(rivals.end(), open.begin(), open.end());
 }
 
-// What lies behind a gate is not what the reference shows there.
+// Judges by the frame only: the background of a free-standing gate differs from the reference's.
 std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(const View& view) {
   rivals = found_first;
   rivals.insert(rivals.end(), search.kept().begin(), search.kept().end());
@@ -95,8 +95,8 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(const V
   return choose(view);
 }
 
-// By the frame first, where there is one: its borders are located best. What lies round it must agree; where
-// it does not surely, it is asked itself, and its answer stands if it is another window.
+// Judges by the frame first, if there is one, because its borders are located best. The surroundings must
+// agree. Unless they do so surely, they are searched, too, and a different window found there wins.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
   std::optional<WindowObservation> window;
   if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
@@ -113,7 +113,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
   return window;
 }
 
-// Nothing was found: something may stand before the window.
+// Searches once more as if something stood before the window.
 std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& view) {
   gatherAll();
   if (everywhere) rivals.insert(rivals.end(), everywhere->begin(), everywhere->end());
@@ -125,8 +125,8 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& 
   return judgeSurroundings(view);
 }
 
-// What has the paint of the reference's frame and another shape has been seen and refused: to look for that
-// paint would bring it again, less well seen.
+// If a decoy with the frame's paint but another shape was refused, a search for the paint would find it
+// again, less well visible.
 void WindowDetector::Impl::searchOnColours() {
   const bool has_decoy =
       std::any_of(trace.candidates.begin(), trace.candidates.end(), [](const CandidateTrace& candidate) {

@@ -19,7 +19,7 @@ CandidateTrace traceOf(const ScoredCandidate& rival, RejectReason reason, double
 }
 
 void sortByRank(std::vector<ScoredCandidate>& rivals) {
-  // Equals by their place, so that the order does not depend on the order before.
+  // Equal ranks are ordered by place, so that the result does not depend on the previous order.
   const auto key = [](const ScoredCandidate& r) {
     return std::make_tuple(-r.rank(), r.quad[0].x(), r.quad[0].y(), r.quad[2].x(), r.quad[2].y());
   };

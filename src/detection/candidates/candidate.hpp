@@ -11,41 +11,41 @@
 
 namespace window_ingress::detection {
 
-/// What edges, or the outline of a blob, say about one side of a candidate.
+/// Support of one side of a candidate by edges or a blob's outline.
 struct SideSupport {
-  double fraction = 0.0;   ///< part of the side that runs along edge pixels of its direction
-  double contrast = 0.0;   ///< mean gradient under it [grey levels a pixel]
-  double overshoot = 0.0;  ///< part of the stretches beyond its two ends where the edge goes on, as in a grid
+  double fraction = 0.0;   ///< part of the side that lies on edge pixels of its direction
+  double contrast = 0.0;   ///< mean gradient under it [grey levels per pixel]
+  double overshoot = 0.0;  ///< part of the stretches beyond its ends where the edge continues, as in a grid
 };
 
 /// A quadrilateral that may be the window, in pixels of the search level, canonical order.
 struct Candidate {
   geometry::Quadrilateral quad = {
       Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-      Eigen::Vector2d::Zero()};  ///< of the undistorted level, where its sides are straight
+      Eigen::Vector2d::Zero()};  ///< in the undistorted level, where its sides are straight
   geometry::Quadrilateral seen = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-                                  Eigen::Vector2d::Zero()};  ///< of the level as it came
+                                  Eigen::Vector2d::Zero()};  ///< in the raw level
   CandidateSource source = CandidateSource::kContour;
   double solidity = 1.0;  ///< area of the outline over area of its hull
-  double closure =
-      1.0;  ///< 1: its sides end in its corners; towards 0 the further they stop short or run beyond
+  double closure = 1.0;   ///< 1: sides end in its corners; lower the further they stop short or run beyond
   std::array<SideSupport, 4> sides;
 };
 
-/// A candidate that passed the gates on single candidates, and what is found out about it.
+/// A candidate that passed the gates on single candidates, with its scores.
 struct ScoredCandidate {
   Candidate candidate;
-  geometry::Quadrilateral quad;  ///< pixels of the image as it came
+  geometry::Quadrilateral quad;  ///< raw pixels
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
-  double proposal = 0.0;         ///< its rank in the search; 0 where its borders were located afterwards
-  RejectReason verdict = RejectReason::kNone;  ///< kOuterBorder, kPane, kDuplicate: another one is taken
-  std::optional<AppearanceMatch> appearance;   ///< beside the reference, where it can be compared
-  bool located = false;                        ///< its borders are where the reference's are
-  std::optional<double> correlation;           ///< with the reference's surroundings, where they were aligned
-  RingMatch match;                             ///< of that place, finely compared
-  double geometry = 0.0;                       ///< then: its score by geometry alone
-  double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
+  double proposal = 0.0;         ///< rank in the search; 0 if its borders were located afterwards
+  RejectReason verdict =
+      RejectReason::kNone;  ///< kOuterBorder, kPane, kDuplicate: another candidate replaces this one
+  std::optional<AppearanceMatch> appearance;  ///< comparison with the reference, where possible
+  bool located = false;                       ///< its borders were moved to the reference's
+  std::optional<double> correlation;          ///< with the reference's surroundings, if aligned
+  RingMatch match;                            ///< fine comparison of the aligned place
+  double geometry = 0.0;                      ///< if located: score by geometry alone
+  double worth = 0.0;  ///< if located: how well colours about its borders match the reference, 0 to 1
 
   double rank() const { return score * size; }
 };

@@ -8,18 +8,16 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kSupportLow = 0.4;       ///< support of a side that counts nothing
-constexpr double kOvershootWeight = 1.0;  ///< exponent of the part that sides end at their corners
-constexpr double kAreaFull =
-    0.06;  ///< area from which size makes no difference to the rank, in areas of the image
-constexpr double kAreaWeight = 0.45;    ///< exponent of the area's part in the rank
-constexpr double kClosureWeight = 0.5;  ///< exponent of the closure's part
-constexpr double kGeometryWeight =
-    0.25;  ///< exponent of all of the above where there is a reference to compare with
-constexpr double kWorthWeight = 0.7;  ///< exponent of the worth of its borders, beside the reference's
+constexpr double kSupportLow = 0.4;       ///< support of a side that counts as none
+constexpr double kOvershootWeight = 1.0;  ///< exponent of one minus the overshoot
+constexpr double kAreaFull = 0.06;        ///< area above which size does not affect the rank [image areas]
+constexpr double kAreaWeight = 0.45;      ///< exponent of the area's part in the rank
+constexpr double kClosureWeight = 0.5;    ///< exponent of the closure's part
+constexpr double kGeometryWeight = 0.25;  ///< exponent of the geometry score if there is a reference
+constexpr double kWorthWeight = 0.7;      ///< exponent of the borders' worth, see ReferenceBorders
 constexpr double kBorderPart =
-    0.003;  ///< a corner this close to the image's border is cut, in longer sides of the image
-constexpr double kMeanSideSupport = 0.7;  ///< least support of the four sides together
+    0.003;  ///< a corner this close to the image's border is cut off [longer image sides]
+constexpr double kMeanSideSupport = 0.7;  ///< least mean support of the four sides
 constexpr double kMinSolidity = 0.8;      ///< area of an outline over that of its hull
 constexpr double kRightAngle = 1.5707963267948966;
 

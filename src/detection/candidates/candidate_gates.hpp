@@ -15,24 +15,24 @@ struct Rejection {
   double limit = 0.0;
 };
 
-/// The paper's conditions on a candidate (P8), each a gate with a name. Those on the shape alone: corners,
+/// The paper's conditions on a candidate (P8), each a named gate. These concern the shape alone: corners,
 /// area, aspect ratio, solidity, angles, border.
 std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& image,
                                     const CandidateGatesParams& params);
 
-/// Those on what the edge map says of its sides: line support, contrast.
+/// Gates on the support of its sides by the edge map: line support, contrast.
 std::optional<Rejection> supportFault(const Candidate& candidate, const CandidateGatesParams& params);
 
-/// How much a candidate is like a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of the
-/// support of its sides, the weakest counting most, and how well they end at their corners. It does not
-/// depend on its size.
+/// How much a candidate resembles a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of
+/// the support of its sides, the weakest counting most, and of how well they end at their corners.
+/// Independent of its size.
 double windowScore(const Candidate& candidate);
 
-/// The same where the borders of the reference were looked for: what they look like counts most.
+/// Score where the reference's borders were searched; their worth counts most.
 /// \param worth of its borders, see ReferenceBorders
 double scoreWithReference(double geometry, double worth);
 
-/// Factor by which a larger candidate is preferred to a smaller one, up to 1.
+/// Factor that prefers larger candidates, up to 1.
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image);
 
 }  // namespace window_ingress::detection

@@ -11,16 +11,16 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kOpenScore = 0.5;        ///< of what three sides enclose
-constexpr double kColourContrast = 16.0;  ///< of blobs in the image of colours alone [grey levels]
-constexpr double kPaintContrast = 8.0;    ///< and in that of one paint
+constexpr double kOpenScore = 0.5;        ///< score of a candidate with three sides
+constexpr double kColourContrast = 16.0;  ///< of blobs in the colour-only image [grey levels]
+constexpr double kPaintContrast = 8.0;    ///< of blobs in the image of one paint [grey levels]
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
   return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
           toFullImage(quad[3], factor)};
 }
 
-// What the outline of a blob has shown may be more than the edges show.
+// Combines with the support by edges, which may be less than the outline of a blob has shown.
 void addEdges(const std::array<SideSupport, 4>& edges, std::array<SideSupport, 4>& sides) {
   for (int i = 0; i < 4; ++i) {
     sides[i].fraction = std::max(sides[i].fraction, edges[i].fraction);

@@ -25,30 +25,30 @@ class CandidateSearch {
  public:
   explicit CandidateSearch(const DetectorParams& params);
 
-  /// Valid until the next call. Best first, each loop once, at most `max_candidates`. Everything else goes
-  /// into the trace. \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way \param camera its
-  /// calibration, or null: the image is then taken as free of distortion
+  /// Candidates, best first, each loop once, at most `max_candidates`; valid until the next call. All others
+  /// go into the trace. \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way \param camera
+  /// calibration of the image, or null: no distortion
   const std::vector<ScoredCandidate>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                           DetectionTrace& trace);
 
-  /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
-  /// but not in brightness, or that are lost among brighter and darker things; and by the outlines of blobs.
-  /// None if it has no colours. \param paint of a thin or blurred frame, where it is known: by that alone,
-  /// see `RingMeans::paint`
+  /// Searches the last image again by its colours alone and by the outlines of blobs: for borders that differ
+  /// from their surroundings in hue but not in brightness, or that are lost among brighter and darker things.
+  /// None if it has no colours. \param paint colour of a thin or blurred frame, if known: searches by that
+  /// alone, see `RingMeans::paint`
   const std::vector<ScoredCandidate>& runOnColours(const std::optional<Eigen::Vector3f>& paint,
                                                    DetectionTrace& trace);
 
-  /// What the last call returned.
+  /// Result of the last call.
   const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
-  /// What three sides of the last call enclose, see SegmentQuads::open: no windows by their geometry, for a
-  /// judge that knows better. Valid until the next call.
+  /// Quadrilaterals enclosed by three sides of the last call, see SegmentQuads::open. By geometry alone they
+  /// are no windows; the caller must judge them. Valid until the next call.
   const std::vector<ScoredCandidate>& open();
 
-  /// \param watch told of each stage that is done, or null; outlives this
+  /// \param watch is notified of each completed stage; null: none; must outlive this object
   void setWatch(StageTimer* watch) { watch_ = watch; }
 
-  int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
+  int factor() const { return factor_; }  ///< pixels of the last image per pixel of its search level
 
  private:
   void look(const cv::Mat& level);

@@ -12,15 +12,15 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kLanes = cv::v_int16x8::nlanes;
-constexpr int kEveryRow = 4;  ///< the thresholds are estimated from these rows
+constexpr int kEveryRow = 4;  ///< the thresholds are estimated from every fourth row
 constexpr uchar kWeak = 1, kStrong = 2, kEdge = 255;
 
 cv::v_int16x8 strength(const cv::v_int16x8& dx, const cv::v_int16x8& dy) {
   return cv::v_reinterpret_as_s16(cv::v_abs(dx) + cv::v_abs(dy));
 }
 
-// Of three neighbouring values in each array, the pair with the largest |dx| + |dy|, the first of equals; for
-// as many pixels as there are lanes. Without branches: which channel wins is as good as random.
+// Picks from three adjacent values of each array the pair with the largest |dx| + |dy|, the first on a tie;
+// for as many pixels as there are lanes. Avoids branches, because the winning channel is unpredictable.
 void strongestOfThree(const short* dx3, const short* dy3, short* dx, short* dy) {
   cv::v_int16x8 x0, x1, x2, y0, y1, y2;
   cv::v_load_deinterleave(dx3, x0, x1, x2);
@@ -31,7 +31,7 @@ void strongestOfThree(const short* dx3, const short* dy3, short* dx, short* dy) 
   cv::v_store(dy, cv::v_select(by_third, y2, cv::v_select(by_second, y1, y0)));
 }
 
-// The same for a row; its last pixels are done together, some of them twice.
+// Applies strongestOfThree to a row; its last pixels are processed as one batch, some of them twice.
 void strongestInRow(const short* dx3, const short* dy3, int pixels, short* dx, short* dy) {
   if (pixels < kLanes) {
     std::array<short, 3 * kLanes> wide_dx3{}, wide_dy3{};
@@ -49,13 +49,13 @@ void strongestInRow(const short* dx3, const short* dy3, int pixels, short* dx, s
   }
 }
 
-/// In units of the strength.
+/// In units of the edge strength |dx| + |dy|.
 struct Thresholds {
   short low, high;
 };
 
-// Edges run across the direction of their gradient, of which four are told apart: 13 / 32 is the tangent of
-// 22.1 degrees. Without branches, for the vectorizer.
+// Edges run across their gradient, whose direction is rounded to one of four: 13 / 32 is the tangent of 22.1
+// degrees. Without branches, for the vectorizer.
 void thinRow(const short* above, const short* here, const short* below, const short* dx, const short* dy,
              Thresholds limits, int columns, uchar* edges) {
   for (int x = 1; x < columns - 1; ++x) {
@@ -100,7 +100,7 @@ void EdgeDetector::measureStrength() {
   }
 }
 
-// So that a part of all pixels is weaker [grey levels a pixel].
+// Threshold below which `high_quantile` of all pixels lie [grey levels per pixel].
 double EdgeDetector::upperThreshold() const {
   std::array<int, 2048> histogram{};
   int count = 0;
@@ -131,7 +131,7 @@ void EdgeDetector::thin() {
             map_.dx.ptr<short>(y), map_.dy.ptr<short>(y), limits, strength_.cols, map_.edges.ptr(y));
 }
 
-// Weak pixels stay if they are connected with a strong one.
+// Weak pixels stay if connected to a strong one.
 void EdgeDetector::followStrong() {
   cv::Mat& edges = map_.edges;
   const auto step = static_cast<std::ptrdiff_t>(edges.step);

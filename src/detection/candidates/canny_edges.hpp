@@ -9,15 +9,15 @@ namespace window_ingress::detection {
 
 /// Thin edges of an image with the gradient under them.
 struct EdgeMap {
-  /// `dx` and `dy` are Sobel sums: this many times the gradient in grey levels a pixel.
+  /// `dx` and `dy` are Sobel sums: this many times the gradient in grey levels per pixel.
   static constexpr double kSobelGain = 8.0;
 
   cv::Mat edges;   ///< CV_8UC1, 0 or 255, one pixel wide
   cv::Mat dx, dy;  ///< CV_16SC1, of the channel with the strongest gradient at that pixel
 };
 
-/// Canny (P3) with thresholds that follow the image. Colours count: the gradient is that of the strongest
-/// channel.
+/// Canny (P3) with thresholds that adapt to the image. For colour images the gradient is that of the
+/// strongest channel.
 class EdgeDetector {
  public:
   explicit EdgeDetector(const EdgeMapParams& params) : params_(params) {}
@@ -34,7 +34,7 @@ class EdgeDetector {
 
   EdgeMapParams params_;
   EdgeMap map_;
-  cv::Mat all_dx_, all_dy_;  ///< CV_16SC3, of all channels
+  cv::Mat all_dx_, all_dy_;  ///< CV_16SC3, per channel
   cv::Mat strength_;         ///< CV_16SC1, |dx| + |dy|
   std::vector<uchar*> waiting_;
 };

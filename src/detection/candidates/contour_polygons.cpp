@@ -14,11 +14,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMinPerimeter = 0.08;  ///< of an outline, in longer sides of the level
-constexpr double kHullExcess = 0.12;    ///< the four lines round a hull may add this part of its area
-constexpr double kClosure = 0.7;    ///< of an outline: closed, but its corners are no better than the outline
-constexpr int kMaxContours = 3000;  ///< looked at in one image
+constexpr double kHullExcess = 0.12;    ///< the four lines round a hull may add this part of the hull's area
+constexpr double kClosure = 0.7;        ///< of an outline, which is closed but has imprecise corners
+constexpr int kMaxContours = 3000;      ///< number of outlines examined per image
 
-// Where the side before `a` and the side after `b` meet if side a-b is taken away, and the area that adds.
+// Point where the sides before `a` and after `b` meet if side a-b is removed, and the area that this adds.
 bool meetBeyond(const Vector2d& before, const Vector2d& a, const Vector2d& b, const Vector2d& after,
                 Vector2d& meet, double& added) {
   const Vector2d u = a - before, v = after - b;
@@ -55,7 +55,7 @@ geometry::Quadrilateral toQuad(const std::vector<cv::Point>& p) {
           Vector2d(p[3].x, p[3].y)};
 }
 
-// Each side moved outwards.
+// Moves each side outwards.
 geometry::Quadrilateral grown(const geometry::Quadrilateral& quad, double distance_px) {
   geometry::Quadrilateral result;
   for (int i = 0; i < 4; ++i) {

@@ -9,9 +9,9 @@
 
 namespace window_ingress::detection {
 
-/// Four lines round a convex polygon: removes the side that adds least area until four are left.
+/// Four lines round a convex polygon: removes the side that adds the least area until four are left.
 /// \return nothing if fewer than four points are given or the lines do not close
-/// \param buffer memory for its work
+/// \param buffer working memory
 std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
                                                      std::vector<Eigen::Vector2d>& buffer);
 
@@ -28,8 +28,8 @@ class ContourPolygons {
   explicit ContourPolygons(const ContourPolygonsParams& params) : params_(params) {}
 
   /// \param closed CV_8UC1, edges after closing; not changed
-  /// \param dilation_px what the closing added on each side of an edge; taken off again
-  /// \param source what is outlined: edges, or blobs
+  /// \param dilation_px growth of edges by the closing, on each side; removed again
+  /// \param source type of the outlines: edges or blobs
   /// Valid until the next call.
   const Result& run(const cv::Mat& closed, double dilation_px,
                     CandidateSource source = CandidateSource::kContour);

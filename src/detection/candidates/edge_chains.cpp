@@ -10,16 +10,16 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMaxTurn_rad =
-    0.7;  ///< a pixel follows another if their gradients differ less than this [rad]
+    0.7;  ///< largest difference in gradient direction between successive pixels [rad]
 const float kMinSquareCosine = static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2));
 constexpr double kStraightPx =
-    0.9;                       ///< a run leaves its chord by less than this, at a level side of 320 [px]
-constexpr double kBow = 0.02;  ///< a run leaves its chord by this part of it besides: lenses bend
-constexpr int kMinPixels = 4;  ///< of a run; shorter ones are dropped
+    0.9;                       ///< largest deviation of a run from its chord, at a level side of 320 [px]
+constexpr double kBow = 0.02;  ///< additional deviation, as a part of the chord, for lens distortion
+constexpr int kMinPixels = 4;  ///< shorter runs are dropped
 constexpr double kChainSide = 320.0;
 constexpr short kSteps[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-// Of the eight steps the one that comes nearest to a direction.
+// The one of eight steps that is nearest to a direction.
 int stepTowards(int x, int y) {
   const int ax = std::abs(x), ay = std::abs(y);
   if (32 * ay < 13 * ax) return x > 0 ? 0 : 4;
@@ -44,7 +44,7 @@ Vector2d LineMoments::along() const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-// The free neighbour that goes on in the direction of the edge, the straightest first.
+// The free neighbour that continues the edge, the straightest first.
 bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
   const int ahead = stepTowards(-sense * at.dy, sense * at.dx);
   for (int turn : {0, 1, 7}) {
@@ -69,7 +69,7 @@ void EdgeChains::follow(const EdgeMap& map, Pixel at, int sense, std::vector<Pix
   while (next(map, sense, at)) pixels.push_back(at);
 }
 
-// A run from a part of the chain.
+// Adds a part of the chain as a run.
 void EdgeChains::emit(std::size_t first, std::size_t last) {
   if (last - first + 1 < static_cast<std::size_t>(kMinPixels)) return;
   EdgeChain run;
@@ -98,7 +98,7 @@ void EdgeChains::emit(std::size_t first, std::size_t last) {
   runs_.push_back(run);
 }
 
-// Cuts the chain where it is furthest from its chord until all parts are straight (Douglas and Peucker).
+// Cuts the chain at its point furthest from the chord until all parts are straight (Douglas and Peucker).
 void EdgeChains::cut(const UndistortionMap& lens) {
   points_.clear();
   for (const Pixel& p : forward_) points_.push_back(lens.undistort(p.x, p.y));

@@ -10,14 +10,14 @@
 
 namespace window_ingress::detection {
 
-/// Sums over points, from which the line of least squares follows.
+/// Sums over points, which give the least-squares line.
 struct LineMoments {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
 
   void add(const Eigen::Vector2d& p);
   void add(const LineMoments& other);
   Eigen::Vector2d mean() const { return {x / n, y / n}; }
-  Eigen::Vector2d along() const;  ///< unit vector of least squares, of either sign
+  Eigen::Vector2d along() const;  ///< unit vector of the least-squares line, either sign
 };
 
 /// A straight run of connected edge pixels, in pixels of the undistorted search level.
@@ -25,21 +25,21 @@ struct EdgeChain {
   Eigen::Vector2d a, b;      ///< ends; seen from a to b the brighter side lies on the right of the screen
   Eigen::Vector2d normal;    ///< unit vector towards the brighter side
   LineMoments moments;       ///< of its pixels
-  double contrast = 0.0;     ///< mean gradient [grey levels a pixel]
-  int first = 0, count = 0;  ///< of its pixels, see EdgeChains::pixels
+  double contrast = 0.0;     ///< mean gradient [grey levels per pixel]
+  int first = 0, count = 0;  ///< range of its pixels, see EdgeChains::pixels
 };
 
-/// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel
-/// is looked at once. The runs are what the Hough transform votes with.
+/// Links neighbouring edge pixels of similar gradient direction and cuts the chains where they bend. Visits
+/// each pixel once. The runs cast the votes of the Hough transform.
 class EdgeChains {
  public:
-  /// In the order of the image, from top to bottom. Valid until the next call.
+  /// Runs from top to bottom of the image. Valid until the next call.
   const std::vector<EdgeChain>& run(const EdgeMap& map, const UndistortionMap& lens);
 
-  /// Those of the last map.
+  /// Runs of the last map.
   const std::vector<EdgeChain>& runs() const { return runs_; }
 
-  /// Pixels of all runs of the last map, in pixels of the level as it came.
+  /// Pixels of all runs of the last map, in the raw level.
   const std::vector<cv::Point_<short>>& pixels() const { return pixels_; }
 
  private:

@@ -8,8 +8,8 @@
 
 namespace window_ingress::detection {
 
-/// Closes the holes of an edge map by dilation (P6). Borders move outwards by `radiusPx`; only the search
-/// sees that.
+/// Closes gaps of an edge map by dilation (P6). Borders move outwards by `radiusPx`; this affects only the
+/// search.
 class EdgeDilation {
  public:
   explicit EdgeDilation(const ClosingParams& params) : params_(params) {}

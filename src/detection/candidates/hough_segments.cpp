@@ -8,30 +8,29 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kOffLine =
-    0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
-constexpr double kLineBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
-constexpr double kJoinGap =
-    0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
-constexpr std::size_t kMaxSegments = 300;  ///< the strongest are kept
+constexpr double kOffLine = 0.004;  ///< largest distance of run ends from their line [longer level sides]
+constexpr double kLineBow =
+    0.02;  ///< additional distance, as a part of the line's pixels, for lens distortion
+constexpr double kJoinGap = 0.35;  ///< longest gap over which two pieces of a line are joined [their lengths]
+constexpr std::size_t kMaxSegments = 300;  ///< number of strongest segments kept
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
-constexpr double kMinSeed = 0.6;      ///< part of the shortest segment that one run of it must cover
-constexpr std::size_t kMaxJoined = 180;  ///< of the first segments, that are tried with each other
-constexpr double kSpread = 0.05;         ///< the direction of a short seed is this uncertain
-constexpr double kMaxGap = 0.02;         ///< within a segment, in longer sides of the level
-constexpr double kVotes = 0.7;           ///< that start a segment, in pixels of the least length
+constexpr double kDirectionPx = 1.5;     ///< uncertainty of a run's direction times its length [px]
+constexpr double kMinSeed = 0.6;         ///< part of the shortest segment that one run must cover
+constexpr std::size_t kMaxJoined = 180;  ///< number of segments tried pairwise for joining
+constexpr double kSpread = 0.05;         ///< uncertainty of a short seed's direction [rad]
+constexpr double kMaxGap = 0.02;         ///< longest gap within a segment [longer level sides]
+constexpr double kVotes = 0.7;           ///< votes that start a segment [pixels of the least length]
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
 
-// The line through the moments, turned as `like`.
+// Direction of the line through the moments, oriented as `like`.
 Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
   const Vector2d along = moments.along();
   return along.dot(like) < 0.0 ? Vector2d(-along) : along;
 }
 
-// Adds the segments that two pieces of one line make together; the pieces stay.
+// Joins collinear pairs into additional segments; the pieces stay.
 void joinCollinear(std::vector<Segment>& segments, double off_line_px) {
   const std::size_t count = std::min(segments.size(), kMaxJoined);
   for (std::size_t i = 0; i < count; ++i) {
@@ -53,7 +52,7 @@ void joinCollinear(std::vector<Segment>& segments, double off_line_px) {
   }
 }
 
-// The strongest, by length and the root of the contrast.
+// Keeps the strongest, by length and the root of the contrast.
 void keepStrongest(std::vector<Segment>& segments) {
   std::stable_sort(segments.begin(), segments.end(), [](const Segment& p, const Segment& q) {
     return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
@@ -75,14 +74,14 @@ void HoughSegments::prepare(const cv::Size& level) {
       normals_.emplace_back(std::cos(k * kTwoPi / kAngles), std::sin(k * kTwoPi / kAngles));
 }
 
-// Cell of the line of this angle through the middle of a run.
+// Cell of the line at this angle through the middle of a run.
 int HoughSegments::cellOf(const Vector2d& middle, int angle) const {
   const int a = (angle + kAngles) % kAngles;
   const double rho = normals_[a].dot(middle - centre_) / kRhoStepPx + 0.5 * rhos_;
   return a * rhos_ + std::clamp(static_cast<int>(rho), 0, rhos_ - 1);
 }
 
-// Each run votes for the angles that its length leaves open.
+// Each run votes for all angles within the uncertainty of its direction.
 void HoughSegments::vote(const std::vector<EdgeChain>& runs) {
   ballots_.resize(runs.size());
   middles_.resize(runs.size());
@@ -95,7 +94,7 @@ void HoughSegments::vote(const std::vector<EdgeChain>& runs) {
   countVotes(runs);
 }
 
-// Sums and lists of all cells, by counting first.
+// Votes and voter lists of all cells, by counting sort.
 void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
   const std::size_t cells = static_cast<std::size_t>(kAngles) * rhos_;
   votes_.assign(cells, 0.0F);
@@ -116,7 +115,7 @@ void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
       voters_[starts_[*cell++ + 1]++] = static_cast<int>(i);
 }
 
-// The runs that voted for the seed's line or one beside it, as they lie along it.
+// Runs that voted for the seed's line or an adjacent one, ordered along it.
 void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
   members_.clear();
   const EdgeChain& own = runs[seed];
@@ -140,7 +139,7 @@ void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
   });
 }
 
-// Takes what lies on the line up to the first gap; `way` 1 towards b, -1 towards a.
+// Takes the runs on the line up to the first gap; `way` 1 towards b, -1 towards a.
 void HoughSegments::extend(const std::vector<EdgeChain>& runs, int way, LineMoments& moments, double& end) {
   Vector2d mean = moments.mean(), normal = right(moments.along());
   const int count = static_cast<int>(members_.size());

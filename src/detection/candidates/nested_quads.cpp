@@ -13,8 +13,8 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr double kContinued =
-    22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
-constexpr double kMaxRing = 0.25;   ///< width of a frame, in mean sides of its outer border
+    22.0;  ///< an inner loop belongs to the frame if its ring's colour differs less [grey levels]
+constexpr double kMaxRing = 0.25;   ///< width of a frame [mean sides of its outer border]
 constexpr double kRingRatio = 3.0;  ///< widest over narrowest side of a frame
 constexpr double kUniform = 22.0;   ///< colours of a frame's four sides differ less than this [grey levels]
 constexpr double kMaxPanes = 40.0;  ///< area of a window over the area of its smallest pane
@@ -40,7 +40,7 @@ bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tol
   return true;
 }
 
-// Colour in the middle of one side of the ring: mean, and its spread along the side.
+// Mean colour in the middle of one side of the ring. Returns its spread along the side.
 double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner, int i,
                   cv::Vec3d& mean) {
   std::array<cv::Vec3d, kRingSamples> values;
@@ -55,10 +55,10 @@ double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadri
   return std::sqrt(squares / kRingSamples);
 }
 
-/// The ring between two loops, in the middle of its sides.
+/// Colour of the ring between two loops, in the middle of its sides.
 struct RingBetween {
   cv::Vec3d colour;
-  double spread = 0.0;  ///< of its four sides about that or of one along itself, the larger [grey levels]
+  double spread = 0.0;  ///< larger of the spread between sides and along one side [grey levels]
 };
 
 RingBetween ringBetween(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
@@ -118,7 +118,7 @@ void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandid
         rivals[inner].verdict = RejectReason::kPane;
     }
   }
-  // A frame is one thing: its inner border is as sure as its outer one.
+  // Both borders belong to one frame, so the inner border gets at least the outer one's score.
   for (std::size_t i = 0; i < rivals.size(); ++i)
     if (inner_border[i] >= 0) {
       ScoredCandidate& inner = rivals[inner_border[i]];

@@ -12,12 +12,11 @@ namespace window_ingress::detection {
 bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrilateral& inner,
                   double tolerance_px);
 
-/// Chooses among loops that lie in each other by their geometry alone, and sets their verdicts. Of loops
-/// round the same centre the front inner border of the opening wins: from the outermost loop inwards as long
-/// as the ring passed over is uniform, as the four sides of a frame are (same plane, same paint) and those of
-/// a reveal are not. Without a uniform ring there is no frame: the outermost loop is the opening's front. A
-/// loop that holds panes wins over each of them. \param factor pixels of the image a pixel of the search
-/// level
+/// Chooses among nested loops by their geometry alone, and sets their verdicts. Among concentric loops the
+/// front inner border of the opening wins: the search goes inwards from the outermost loop while the ring in
+/// between is uniform. The four sides of a frame are uniform (same plane, same paint), those of a reveal are
+/// not. Without a uniform ring there is no frame, and the outermost loop is the opening's front. A loop that
+/// holds panes wins over each of them. \param factor image pixels per pixel of the search level
 void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals);
 
 }  // namespace window_ingress::detection

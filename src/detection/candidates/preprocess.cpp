@@ -9,16 +9,16 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kColourGain = 2.0;    ///< of differences between channels, in the image of colours alone
-constexpr int kUnpainted = 100;        ///< what has nothing of the paint, in the image of one paint
+constexpr double kColourGain = 2.0;    ///< of differences between channels in the colour-only image
+constexpr int kUnpainted = 100;        ///< value of pixels without the paint, in the image of one paint
 constexpr float kPaintGain = 400.0F;   ///< of chromaticities, in the image of one paint
-constexpr double kPaintSigmaPx = 1.2;  ///< its smoothing: of chromaticities, dark pixels know little
+constexpr double kPaintSigmaPx = 1.2;  ///< smoothing of the image of one paint, because dark pixels are noisy
 constexpr double kClipLimit = 2.0;     ///< of the equalisation [mean bin counts]
-constexpr int kTiles = 6;              ///< of the equalisation, each way
+constexpr int kTiles = 6;              ///< of the equalisation, in each direction
 
 constexpr double kSigmaPx = 1.0;         ///< of the smoothing: differences between channels are noisy
-constexpr double kMeanOver = 1.0 / 3.0;  ///< side of the square of the mean, in longer sides of the level
-constexpr int kMinSidePx = 16;           ///< of a level; a strip is searched as large as it is
+constexpr double kMeanOver = 1.0 / 3.0;  ///< side of the averaging square [longer level sides]
+constexpr int kMinSidePx = 16;           ///< of a level; narrow strips are not reduced below this
 
 }  // namespace
 

@@ -7,18 +7,18 @@
 
 namespace window_ingress::detection {
 
-/// A pyramid level: each pixel of it is the mean of factor x factor pixels of the image as it came.
+/// A pyramid level: each pixel is the mean of factor x factor raw pixels.
 struct SearchLevel {
   cv::Mat image;  ///< CV_8UC1 or CV_8UC3, smoothed
   int factor = 1;
 };
 
-/// Pixel of the image as it came under a pixel of the search level; both have their centres at integers.
+/// Raw pixel at a pixel of the search level; pixel centres are integers in both.
 inline Eigen::Vector2d toFullImage(const Eigen::Vector2d& level_px, int factor) {
   return factor * level_px + Eigen::Vector2d::Constant(0.5 * (factor - 1));
 }
 
-/// Noise removal and reduction (P2): pyramid down to the search level by means of pixels, Gaussian blur,
+/// Noise removal and reduction (P2): pyramid down to the search level by pixel averages, Gaussian blur,
 /// histogram equalisation.
 class Preprocess {
  public:
@@ -28,12 +28,12 @@ class Preprocess {
   /// call.
   SearchLevel run(const cv::Mat& image);
 
-  /// The last level without its brightness (P23): CV_8UC3, the differences between its channels about 128.
-  /// Empty if it has no colours.
+  /// The last level without brightness (P23): CV_8UC3, differences between its channels about 128. Empty if
+  /// it has no colours.
   const cv::Mat& coloursAlone();
 
-  /// The last level by one paint, whatever light is on it: CV_8UC1, 100 where a pixel's chromaticity
-  /// has nothing of it. Empty if it has no colours. \param paint direction of chromaticity, see
+  /// The last level as the strength of one paint, independent of the light: CV_8UC1, 100 where a pixel's
+  /// chromaticity has none of it. Empty if it has no colours. \param paint direction of chromaticity, see
   /// `RingMeans::paint`
   const cv::Mat& paintAlone(const Eigen::Vector3f& paint);
 
@@ -44,16 +44,16 @@ class Preprocess {
   cv::Mat levels_[2], smooth_, lab_, colours_;
 };
 
-/// Regions of one channel that stand out from what surrounds them, however weak or broken their edges are.
+/// Regions of one channel that stand out from their surroundings, however weak or broken their edges are.
 class BlobMasks {
  public:
   enum class Sign { kAbove, kBelow };
 
-  /// The channel in which `run` looks. \param level CV_8UC1 or CV_8UC3
+  /// Sets the channel for `run`. \param level CV_8UC1 or CV_8UC3
   void take(const cv::Mat& level, int channel);
 
-  /// Where the channel is above, or below, its mean over the square around by more than `contrast`: CV_8UC1,
-  /// 0 or 255. Valid until the next call. \param contrast [grey levels]
+  /// Mask of pixels above, or below, the mean of the surrounding square by more than `contrast`: CV_8UC1, 0
+  /// or 255. Valid until the next call. \param contrast [grey levels]
   const cv::Mat& run(Sign sign, double contrast);
 
  private:

@@ -13,31 +13,31 @@ using Eigen::Vector2d;
 
 constexpr double kMeanCoverage = 0.65;        ///< least mean coverage of the four sides
 const double kMinCornerSine = std::sin(0.6);  ///< of the angle between neighbouring sides
-constexpr double kOddSide =
-    0.95;  ///< factor for each side that is brighter inside where most are darker, or so
+constexpr double kOddSide = 0.95;  ///< factor for each side whose polarity differs from the majority
 constexpr double kSlackPx = 3.0;
-constexpr double kRoundedPx = 1.5;        ///< edges end this far before a corner
-constexpr std::size_t kVariantsKept = 4;  ///< of each loop that is kept so many are compared
-constexpr double kOnPart = 0.3;   ///< a segment goes on beyond a junction with this part of its length
-constexpr double kLongest = 2.0;  ///< mean side of the largest quadrilateral on a side, in its lengths
-constexpr double kLargest = 2.0;  ///< the same at a corner, in the mean lengths of its segments
+constexpr double kRoundedPx = 1.5;        ///< edges end this far before a corner [px]
+constexpr std::size_t kVariantsKept = 4;  ///< variants compared per quadrilateral kept
+constexpr double kOnPart = 0.3;           ///< a side uses at least this part of its segment beyond a junction
+constexpr double kLongest = 2.0;          ///< greatest mean side of a quadrilateral over its first side
+constexpr double kLargest = 2.0;  ///< greatest mean side of a quadrilateral over the mean length at a corner
 constexpr float kNoWay = 1e9F;
 constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
-constexpr double kOpenCoverage = 0.6;  ///< of the side between two others that no fourth closes
-constexpr double kOpenSide = 0.3;      ///< the shorter of the two over the longer one
-constexpr double kOpenLongest = 3.0;  ///< the longer one over the side between them, or that over the shorter
-constexpr double kOpenCosine = 0.8;   ///< of the angle between the two
+constexpr double kOpenCoverage = 0.6;  ///< coverage of the side between two others without a fourth
+constexpr double kOpenSide = 0.3;      ///< least ratio of the shorter to the longer of two opposite sides
+constexpr double kOpenLongest =
+    3.0;  ///< greatest ratio of the longer one to the side between, or of that to the shorter
+constexpr double kOpenCosine = 0.8;  ///< of the angle between the two opposite sides
 constexpr std::size_t kMostOpen = 200;
 
-// Part of the stretch from t1 to t2 that the segment, 0 to 1, covers.
+// Part of the stretch from t1 to t2 that is covered by the segment, 0 to 1.
 double coverage(double t1, double t2) {
   const double low = std::min(t1, t2), high = std::max(t1, t2);
   return high > low ? std::max(0.0, std::min(high, 1.0) - std::max(low, 0.0)) / (high - low) : 0.0;
 }
 
-// How far the ends of a segment are off a corner at t, if a side goes on from there to a, or to b; running
-// beyond counts half. Nothing where too little of it goes on.
+// Distance of a segment's ends from a corner at t, if a side continues from there to a, or to b; running
+// beyond counts half. kNoWay where too little of the segment continues.
 std::array<float, 2> gapsPx(double length, double t) {
   const auto gap = [length](double short_by) {
     const double px = length * (short_by > 0.0 ? short_by : -0.5 * short_by);
@@ -55,7 +55,7 @@ int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& c
 
 }  // namespace
 
-// Where two lines meet, if both segments come near enough.
+// Intersection of two lines, if both segments come near enough.
 bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const {
   const double sine = cross(p.way, q.way);
   if (std::abs(sine) < kMinCornerSine * p.length * q.length) return false;
@@ -71,7 +71,7 @@ bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const 
   return true;
 }
 
-// Notes for which ways and sides the junction may be a corner.
+// Records the ways and sides for which the junction may be a corner.
 void SegmentQuads::enter(int i, const Junction& junction) {
   const double size_px = kLargest * std::sqrt(sides_[i].length * sides_[junction.other].length);
   const double most_px = mostGap(size_px);
@@ -109,7 +109,7 @@ void SegmentQuads::connect(const std::vector<Segment>& segments) {
     }
 }
 
-// Quadrilaterals on one side of segment i, which is the first of their four.
+// Quadrilaterals on one side of segment i, which has the lowest index of the four.
 void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i, int side) {
   const double length = sides_[i].length;
   for (const Junction& first : junctions_[i]) {
@@ -133,7 +133,7 @@ void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i, int 
 void SegmentQuads::close(const std::vector<Segment>& segments, const Base& base) {
   const Junction &ij = *base.first, &il = *base.second;
   const Way back_j = ij.otherTowards(1 - base.side), back_l = il.otherTowards(1 - base.side);
-  // On which side of j and l the first segment goes on.
+  // Side of j and l on which the first segment continues.
   const int side_j = ij.from_left ? kLeft : kRight, side_l = il.from_left ? kRight : kLeft;
   const std::uint64_t *of_j = corners(ij.other, back_j, side_j), *of_l = corners(il.other, back_l, side_l);
   for (int word = base.own / 64; word < words_; ++word)
@@ -167,7 +167,7 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, const Base& ba
   found_.push_back({mean * closed * even * std::sqrt(size_px), closed * even, *quad});
 }
 
-// The best, each loop once.
+// Keeps the best, each quadrilateral once.
 void SegmentQuads::keepBest() {
   order_.resize(found_.size());
   std::iota(order_.begin(), order_.end(), 0);
@@ -199,7 +199,7 @@ void SegmentQuads::keepBest() {
   }
 }
 
-// Pairs of sides that leave the segment i on one side of it.
+// Pairs of sides that leave segment i on one side.
 void SegmentQuads::openFrom(const std::vector<Segment>& segments, int i, int side) {
   for (const Junction& first : junctions_[i]) {
     if (first.gapPx(kToB, side) >= kNoWay) continue;
@@ -214,7 +214,7 @@ void SegmentQuads::openFrom(const std::vector<Segment>& segments, int i, int sid
   }
 }
 
-// Two sides that may be opposite ones end where something stands before the fourth, or before one of them.
+// Two sides that may be opposite end where something covers the fourth side, or one of them.
 void SegmentQuads::closeOpen(const std::vector<Segment>& segments, const Base& base, double stretch_px) {
   const auto wayAlong = [&](const Junction& corner) {
     const Segment& segment = segments[corner.other];

@@ -10,23 +10,23 @@
 
 namespace window_ingress::detection {
 
-/// Quadrilaterals whose four sides are straight segments and whose corners are the segments' intersections:
-/// finds the windows whose contour is broken or runs into its neighbours (P4 selects and constrains, P7).
+/// Quadrilaterals whose sides are straight segments and whose corners are the segments' intersections. Finds
+/// windows whose contour is broken or merges with its neighbours (P4 selects and constrains, P7).
 class SegmentQuads {
  public:
   struct Result {
-    std::vector<Candidate> candidates;  ///< best covered first, each loop once
+    std::vector<Candidate> candidates;  ///< best covered first, each quadrilateral once
     bool budget_exceeded = false;
   };
 
   static constexpr double kClosurePx =
-      1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
-  static constexpr double kClosureSide = 0.02;  ///< added to that, in mean sides of the quadrilateral
+      1.5;  ///< mean distance of segment ends from corners that reduces closure by a factor of e [px]
+  static constexpr double kClosureSide = 0.02;  ///< added to kClosurePx [mean sides of the quadrilateral]
 
   explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
 
-  /// Where the search stops: the strongest segments are combined to what is closed so far at least, the best
-  /// covered quadrilaterals kept.
+  /// Limits of the search: number of strongest segments combined, number of combinations, number of best
+  /// covered quadrilaterals kept, and least closure.
   struct Effort {
     int segments, combinations, quads;
     double min_closure;
@@ -36,36 +36,36 @@ class SegmentQuads {
   /// \param segments strongest first, in pixels of the search level. Valid until the next call.
   const Result& run(const std::vector<Segment>& segments, double min_area_px, const Effort& effort);
 
-  /// Three sides of the last run each, as if something stood before the fourth: closed where the longer and
-  /// where the shorter of two opposite sides ends. Likeliest first, each once.
+  /// Quadrilaterals from three sides of the last run each, as if something covered the fourth: closed at the
+  /// end of the longer and at the end of the shorter opposite side. Likeliest first, each once.
   /// \param segments those of the last run. Valid until the next call
   const std::vector<geometry::Quadrilateral>& open(const std::vector<Segment>& segments);
 
  private:
-  /// The ways along a segment, and the sides of it as seen when going from a to b.
+  /// The ways along a segment, and its sides as seen from a to b.
   enum Way { kToA, kToB };
   enum SideOf { kLeft, kRight };
 
-  /// Where the line of one segment meets that of another; `t` is 0 to 1 from its end a to its end b.
+  /// Intersection of two segments' lines; `t` runs from 0 at end a to 1 at end b.
   struct Junction {
     int other = 0;
-    bool from_left = false;  ///< the other segment, going to b, crosses from the left to the right
+    bool from_left = false;  ///< the other segment, from a to b, crosses from left to right
     float t_own = 0.0F, t_other = 0.0F;
     std::array<float, 2> own_gap_px,
-        other_gap_px;  ///< by the way a side goes on from here: how far the end of
-                       ///< the segment is off this corner; kNoWay: no side there
+        other_gap_px;  ///< distance of the segment's end from this corner, by the way a side continues;
+                       ///< kNoWay: no side there
     Eigen::Vector2d point;
 
     Way otherTowards(int side) const { return from_left == (side == kRight) ? kToB : kToA; }
     float gapPx(int way, int side) const { return own_gap_px[way] + other_gap_px[otherTowards(side)]; }
   };
 
-  /// A segment as it is asked for junctions: `reach` from its middle a line may meet it, in its lengths.
+  /// A segment prepared for junctions: a line may meet it up to `reach` from its middle [its lengths].
   struct Side {
     Eigen::Vector2d start, way;
     double length = 0.0, reach = 0.0;
   };
-  /// Two neighbouring corners on the first segment, and what their ends cost.
+  /// Two neighbouring corners on the first segment, and their gaps.
   struct Base {
     int own = 0, side = kLeft;
     const Junction *first = nullptr, *second = nullptr;
@@ -98,8 +98,8 @@ class SegmentQuads {
   std::vector<Side> sides_;
   std::vector<std::vector<Junction>> junctions_;
   std::vector<std::uint64_t>
-      corners_;                       ///< of each segment by way and side: a bit for each that makes a corner
-  std::vector<std::int16_t> places_;  ///< of the junction of a pair
+      corners_;  ///< of each segment by way and side: one bit per segment that forms a corner
+  std::vector<std::int16_t> places_;  ///< index of a pair's junction
   std::vector<Found> found_, open_found_;
   std::vector<geometry::Quadrilateral> open_;
   std::vector<int> order_;

@@ -11,17 +11,19 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kReachPx = 2;  ///< distance of an edge pixel from the side, on the search level [px]
-const double kDirection = std::cos(0.35);  ///< cosine of the angle between its gradient and the side's normal
-constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
-constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
+constexpr int kReachPx = 2;  ///< greatest distance of an edge pixel from the side, on the search level [px]
+const double kDirection =
+    std::cos(0.35);                ///< cosine of the greatest angle between gradient and the side's normal
+constexpr double kBeyond = 0.2;    ///< stretch examined beyond each corner [lengths of the side]
+constexpr double kCornerPx = 3.0;  ///< a rounded corner ends at this distance, on the search level [px]
 
-constexpr double kOutlinePx = 1.5;      ///< distance of an outline from a side that it runs along [px]
-constexpr int kParts = 16;              ///< of a side that are told apart, at most one a pixel
-constexpr double kOutlinedWorth = 0.9;  ///< of a side that an outline runs along, beside straight edges
-constexpr double kBlobContrast = 4.0;   ///< of such a side, at least [grey levels a pixel]
+constexpr double kOutlinePx = 1.5;      ///< greatest distance of an outline from a side that it follows [px]
+constexpr int kParts = 16;              ///< parts of a side, at most one per pixel
+constexpr double kOutlinedWorth = 0.9;  ///< worth of a side that follows an outline; 1 for a straight edge
+constexpr double kBlobContrast =
+    4.0;  ///< contrast assumed for a side that follows an outline [grey levels per pixel]
 
-/// The edges, and the lens that bends them.
+/// The edge map and its lens.
 struct Level {
   const EdgeMap& map;
   const UndistortionMap& lens;
@@ -30,16 +32,16 @@ struct Level {
 /// The edge pixel found beside one point of a side.
 struct Hit {
   double worth = 0.0;     ///< 1 on the side, less beside it, 0: none
-  double strength = 0.0;  ///< gradient along the side's outward normal [grey levels a pixel], signed
+  double strength = 0.0;  ///< gradient along the outward normal [grey levels per pixel], signed
 };
 
-/// The question that is asked at many points along one line.
+/// A test repeated at many points along one line.
 struct Probe {
   Vector2d outward;  ///< unit vector across the line
-  int reach;         ///< how far beside the line [px]
+  int reach;         ///< greatest distance from the line [px]
 };
 
-// Looks at one pixel; worth 0 if there is no edge of this direction.
+// Tests one pixel; worth 0 if it has no edge of this direction.
 inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) {
   const Vector2d p = level.lens.distort(ideal);
   const EdgeMap& map = level.map;
@@ -52,7 +54,7 @@ inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) 
   return {1.0, along / EdgeMap::kSobelGain};
 }
 
-// The nearest, first on the line, then outside and inside in turn.
+// The nearest hit: first on the line, then alternately outside and inside.
 Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
   Hit hit = hitAt(level, at, probe);
   for (int offset = 1; offset <= probe.reach && hit.worth == 0.0; ++offset) {
@@ -64,8 +66,8 @@ Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
   return hit;
 }
 
-// Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way`
-// (unit vector); weaker ones, as the joints of a wall that run along a border, count in squares.
+// Part of the stretch beyond `corner` in which an edge as strong as the side's continues in the direction
+// `way` (unit vector). Weaker edges, such as wall joints along a border, count by their squared ratio.
 double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
                  double contrast) {
   const Probe probe = {{way.y(), -way.x()}, 1};
@@ -104,7 +106,7 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   return support;
 }
 
-// The parts of one side that an outline runs along.
+// The parts of one side that lie on an outline.
 class OutlinedSide {
  public:
   OutlinedSide(const Vector2d& a, const Vector2d& b)

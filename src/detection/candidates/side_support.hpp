@@ -10,12 +10,12 @@
 
 namespace window_ingress::detection {
 
-/// How well the sides of a quadrilateral of the undistorted level run along straight edges.
+/// How well the sides of a quadrilateral in the undistorted level lie on straight edges.
 std::array<SideSupport, 4> measureSides(const EdgeMap& map, const UndistortionMap& lens,
                                         const geometry::Quadrilateral& quad);
 
-/// How well they run along the outline of a blob, however weak the edge there; nothing is known beyond their
-/// corners. \param quad of the level as it came, as the outline is; its sides are taken as straight there
+/// How well the sides lie on the outline of a blob, however weak its edge. Does not measure overshoot beyond
+/// the corners. \param quad in the raw level, as the outline; its sides are assumed straight there
 std::array<SideSupport, 4> outlinedSides(const geometry::Quadrilateral& quad,
                                          const std::vector<cv::Point>& outline);
 

@@ -5,7 +5,7 @@
 namespace window_ingress::detection {
 namespace {
 
-// The same lens as seen by pixels that are means of factor x factor.
+// The camera for pixels that are means of factor x factor raw pixels.
 geometry::PinholeCamera reduced(geometry::PinholeCamera camera, const cv::Size& level, int factor) {
   const double shift = 0.5 * (factor - 1);
   camera.width = level.width, camera.height = level.height;

@@ -8,11 +8,11 @@
 
 namespace window_ingress::detection {
 
-/// The lens as it shows on the search level: straight borders are straight lines of the undistorted level
-/// only. Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
+/// Lens distortion on the search level: straight borders are straight lines in the undistorted level only.
+/// Points are undistorted, never the image. Without a camera or distortion, nothing changes.
 class UndistortionMap {
  public:
-  /// For images of this camera, reduced by this factor. Costs something only when camera or factor change.
+  /// Prepares for images of this camera, reduced by this factor. Expensive only when camera or factor change.
   void set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor);
 
   Eigen::Vector2d undistort(int x, int y) const {
@@ -28,8 +28,8 @@ class UndistortionMap {
   }
 
  private:
-  std::optional<geometry::PinholeCamera> camera_;  ///< of the level; nothing if it does not bend
-  cv::Mat table_;                                  ///< CV_32FC2, ideal pixel of every pixel
+  std::optional<geometry::PinholeCamera> camera_;  ///< camera of the level; nothing without distortion
+  cv::Mat table_;                                  ///< CV_32FC2, undistorted pixel of every pixel
 };
 
 }  // namespace window_ingress::detection

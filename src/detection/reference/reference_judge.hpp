@@ -74,8 +74,8 @@ class ReferenceJudge {
   std::optional<Rejection> objectionTo(const RingMatch& match,
                                        const std::optional<AppearanceMatch>& frame) const;
 
-  /// Best fit of the surroundings near this window. Nothing where something else lies behind its frame, as
-  /// behind a gate. \param coarsest_px see RingMatcher
+  /// Best fit of the surroundings near this window. Nothing where its background differs, as behind a
+  /// free-standing gate. \param coarsest_px see RingMatcher
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera, double coarsest_px);
 

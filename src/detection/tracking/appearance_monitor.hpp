@@ -12,14 +12,14 @@
 
 namespace window_ingress::detection {
 
-/// How like the reference the target has been: a window that is much less so does not take its place while it
-/// is out of sight. The limit of `AppearanceMatch` must let the target pass in any light; of two that pass in
-/// the same light, one that is clearly less like it is another window.
+/// Tracks how well the target matches the reference, so that a window that matches much less does not replace
+/// the target while it is out of sight. The limit of `AppearanceMatch` must accept the target in any light.
+/// In the same light, a window that matches clearly less is another one.
 class AppearanceGate {
  public:
   static constexpr double kMargin =
-      0.2;  ///< a window less like the reference than the target was by this is another one
-  static constexpr double kValidSec = 10.0;  ///< a comparison says what is allowed for so long [s]
+      0.2;  ///< a window that matches less than the target by this distance is another one
+  static constexpr double kValidSec = 10.0;  ///< a comparison is valid for this many seconds [s]
 
   void forget() { *this = AppearanceGate(); }
   /// Bhattacharyya distance of a confirmed track, at a comparison.
@@ -33,14 +33,14 @@ class AppearanceGate {
     if (++notes_ >= kEnough) best_ = std::min(best_, smoothed_);
   }
 
-  /// Whether a window at this distance may be the target. Anything may where nothing is known, or once the
-  /// target has been out of sight for `kValidSec`: the light may be another.
+  /// True if a window at this distance may be the target. Any window may if nothing is known, or once the
+  /// target has been out of sight for `kValidSec`, because the light may have changed.
   bool allows(double distance, double stamp_sec) const {
     const bool is_known = best_ < kUnknown && std::abs(stamp_sec - last_sec_) <= kValidSec;
     return !is_known || distance <= best_ + kMargin;
   }
 
-  double best() const { return best_; }  ///< of the target so far, smoothed; 2 where nothing is known
+  double best() const { return best_; }  ///< smallest smoothed distance of the target so far; 2 if unknown
 
  private:
   static constexpr int kEnough = 3;       // comparisons
@@ -52,26 +52,26 @@ class AppearanceGate {
   int notes_ = 0;
 };
 
-/// From time to time: does what is followed still look like the reference? While it surely does, the
-/// reference follows the light.
+/// Periodically compares the tracked window with the reference. While they surely match, the reference adapts
+/// to the light.
 class AppearanceMonitor {
  public:
   explicit AppearanceMonitor(const DetectorParams& params) : params_(params) {}
 
   void setParams(const DetectorParams& params) { params_ = params; }
-  /// \param reference null: there is nothing to compare with
+  /// \param reference null: no comparison
   void setReference(std::shared_ptr<ReferenceAppearance> reference) { reference_ = std::move(reference); }
 
-  /// Another window is followed.
+  /// Another window is tracked.
   void start() {
     restart();
     frames_to_comparison_ = params_.track.appearance_every;
   }
 
-  void restart() { unlike_ = false; }  ///< the same one, as a search has just seen it
+  void restart() { unlike_ = false; }  ///< the same window, just seen by a search
 
-  /// Called with each image in which all sides are in view; looks every `TrackParams::appearance_every`.
-  /// \param window as observed; takes the appearance \return false: it looks otherwise
+  /// To be called for each image with all sides in view; compares every `TrackParams::appearance_every`.
+  /// \param window as observed; receives the appearance \return false: it does not match
   bool look(const TrackInput& input, WindowObservation& window) {
     compared_ = false;
     if (!reference_ || --frames_to_comparison_ > 0) return true;
@@ -85,19 +85,20 @@ class AppearanceMonitor {
     return !unlike_;
   }
 
-  /// Right after a look that agreed: takes over part of what differs.
+  /// Adapts the reference in part, right after a `look` that agreed.
   void adapt(const TrackInput& input, const WindowObservation& window) {
     reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
   }
 
-  bool isKnown() const { return reference_ != nullptr; }    ///< there is something to compare with
-  bool hasCompared() const { return compared_; }            ///< `look` has compared the last image
-  bool hasAgreed() const { return compared_ && !unlike_; }  ///< and it was alike
-  bool isUnlike() const { return unlike_; }                 ///< the last time that it was looked at
+  bool isKnown() const { return reference_ != nullptr; }  ///< there is a reference
+  bool hasCompared() const { return compared_; }          ///< `look` has compared the last image
+  bool hasAgreed() const {
+    return compared_ && !unlike_;
+  }                                          ///< `look` has compared the last image, and it matched
+  bool isUnlike() const { return unlike_; }  ///< the last comparison did not match
 
  private:
-  static constexpr double kAdaptation =
-      0.1;  ///< part of a difference in appearance that a comparison takes over
+  static constexpr double kAdaptation = 0.1;  ///< part of a difference that one comparison takes over
 
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search

@@ -7,10 +7,10 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSegments = 6;          // of a side, each matched for itself
+constexpr int kSegments = 6;          // of a side, each matched separately
 constexpr int kMaxReach = 64;         // [px]
 constexpr float kFaintPart = 0.35f;   // of the remembered energy: fainter patterns correlate less
-constexpr float kPreference = 0.15f;  // of the predicted place, in correlation, at the ends of the reach
+constexpr float kPreference = 0.15f;  // penalty in correlation at the ends of the reach
 constexpr int kMaxWidth = 2 * (EdgeTemplate::kMaxHalf + kMaxReach) + 5;
 
 /// Correlations of the segments of a side with a pattern, by shift.
@@ -42,7 +42,7 @@ void correlate(const float* mean, int channels, int width, const Pattern& patter
   }
 }
 
-// The line whose segments agree best.
+// The line on which the segments correlate best.
 EdgeTemplate::Match bestLine(const Correlations& found, int reach, double length) {
   EdgeTemplate::Match match;
   float best = -1e9f;

@@ -9,12 +9,12 @@
 
 namespace window_ingress::detection {
 
-/// How one border of the tracked window looks across: its change of colour with its polarity, and the other
-/// edges near it. A frame has two parallel borders of like colours, a hole in a thick wall too; the pattern
-/// as a whole tells which of them is which, so that a track cannot slip from one to the other.
+/// Appearance across one border of the tracked window: its change of colour with polarity, and the other
+/// edges near it. A frame has two parallel borders of similar colours, and so has a hole in a thick wall. The
+/// whole pattern distinguishes them, so that a track cannot slip from one to the other.
 class EdgeTemplate {
  public:
-  static constexpr int kMaxHalf = 24;  ///< furthest offset that is remembered [px]
+  static constexpr int kMaxHalf = 24;  ///< furthest offset remembered [px]
 
   struct Match {
     OffsetLine line;          ///< to a pixel, in the profiles' axes
@@ -24,17 +24,17 @@ class EdgeTemplate {
   void clear() { known_ = false; }
   bool known() const { return known_; }
 
-  /// Where along the profiles the remembered pattern lies: at most `reach_px` from their middle line, which
-  /// is preferred by a little. \param size_px of the window now, in the measure that was used in learning
+  /// Finds the remembered pattern at most `reach_px` from the profiles' middle line, with a slight preference
+  /// for that line. \param size_px size of the window now, measured as in `learn`
   /// \return nothing if nothing is known or less than half of a side's profiles lie in the image
   std::optional<Match> match(const EdgeProfiles& profiles, int reach_px, double size_px) const;
 
-  /// Takes the pattern along a fitted border into memory. \param half_px offsets to remember
+  /// Stores the pattern along a fitted border. \param half_px offsets to remember
   /// \param rate part of the memory that is replaced, 1 for all
   void learn(const EdgeProfiles& profiles, const OffsetLine& border, int half_px, double size_px,
              double rate);
 
-  /// Direction of its change in colour space, rising outwards; unit vector.
+  /// Direction of the border's change in colour space, outwards; unit vector.
   const Eigen::Vector3f& colour() const { return colour_; }
 
  private:

@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kProfiles = 18;           ///< across each side to find the border again
+constexpr int kProfiles = 18;           ///< across each side, to find the border
 constexpr int kFineProfiles = 40;       ///< across each side to fit its line
-constexpr double kMinSimilarity = 0.5;  ///< correlation of a side's profile with the remembered one, 0 to 1
+constexpr double kMinSimilarity = 0.5;  ///< least correlation of a side's profile with the memory, 0 to 1
 constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must lie on its line
 constexpr double kMinStretch =
-    0.06;  ///< shortest part of a side in the image that is a border [longer image sides]
+    0.06;  ///< shortest visible part of a side that is tracked [longer image sides]
 constexpr int kViewSteps = 64;
 
 bool isInView(const Vector2d& p, const cv::Size& image, double margin) {
@@ -24,7 +24,7 @@ bool isInView(const Vector2d& p, const cv::Size& image, double margin) {
          p.y() <= image.height - 1 - margin;
 }
 
-// Part of the stretch between two parallels to an axis.
+// Clips the stretch to the band between two parallels to an axis.
 bool clip(double from, double span, double low, double high, double& begin, double& end) {
   if (std::abs(span) < 1e-12) return from >= low && from <= high;
   const double a = (low - from) / span, b = (high - from) / span;
@@ -33,7 +33,7 @@ bool clip(double from, double span, double low, double high, double& begin, doub
   return begin < end;
 }
 
-// Far outside the image a lens model folds back into it.
+// Limits the radius, because a lens model folds points far outside the image back into it.
 double largestRadius(const cv::Size& image, const geometry::PinholeCamera& lens) {
   double radius = 0.0;
   for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(image.width - 1, 0), Vector2d(0, image.height - 1),
@@ -58,16 +58,16 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
   return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
 }
 
-constexpr double kNominalSidePx = 640.0;  // longer side of an image at which pixel parameters hold
+constexpr double kNominalSidePx = 640.0;  // pixel parameters hold up to this longer image side
 constexpr double kViewMarginPx = 3.0;     // of a side from the border of the image
-constexpr double kMaxOfASide = 0.8;       // of a short side must be in the image
+constexpr double kMaxOfASide = 0.8;       // part of a short side that must be in the image
 constexpr double kReachSigmas = 3.0;
 constexpr double kMinReachPx = 2.5;
-constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
+constexpr double kPriorPx = 1.0;        // preference for the predicted border over stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
-constexpr double kSameApartPx = 0.3;    // a larger change of it is no noise
-constexpr double kApartRate = 0.3;      // of what is known of it, an alignment
-constexpr double kFoundWithinPx = 4.0;  // an edge, of a border that is to be followed
+constexpr double kSameApartPx = 0.3;    // a larger change of the distance is no noise
+constexpr double kApartRate = 0.3;      // part of that distance that one alignment replaces
+constexpr double kFoundWithinPx = 4.0;  // greatest distance of an edge from the border to track
 constexpr int kMinFollowed = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
@@ -88,7 +88,7 @@ std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image
   return Stretch{whole.from + begin * span, whole.from + end * span};
 }
 
-// Of a side, what lies beside it and is followed.
+// The tracked edge beside a side.
 Stretch EdgeTracker::edgeOf(const Stretch& side, double size_px) {
   middle_ = 0.5 * (side.from + side.to);
   const double length = side.length(), at = apart_.px(size_px), end = 0.5 * length * apart_.slope;

@@ -15,25 +15,25 @@
 
 namespace window_ingress::detection {
 
-/// An image that can be looked at: CV_8UC1 or CV_8UC3, not empty.
+/// A usable image: CV_8UC1 or CV_8UC3, not empty.
 inline bool isUsableImage(const cv::Mat& image) {
   return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3);
 }
 
-/// The same size, focal lengths, principal point and distortion.
+/// True for the same size, focal lengths, principal point and distortion.
 inline bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
          a.cy == b.cy && a.distortion == b.distortion && a.model == b.model;
 }
 
-/// Images of one camera one after the other: what lies between the last two.
+/// A sequence of images from one camera: time and rotation between the last two.
 class ImageSequence {
  public:
-  /// \param max_gap_sec images further apart do not continue each other
+  /// \param max_gap_sec images further apart start a new sequence
   explicit ImageSequence(double max_gap_sec) : max_gap_sec_(max_gap_sec) {}
 
-  /// \return false if it does not continue the last one: no time went by or too much, or size or calibration
-  /// are others. A new sequence begins then.
+  /// \return false if the image starts a new sequence: no time or too much has passed, or size or calibration
+  /// differ
   bool take(const TrackInput& input) {
     const bool continued = isContinuedBy(input);
     if (!continued) forget();
@@ -62,23 +62,23 @@ class ImageSequence {
     last_turn_rad_.reset();
   }
 
-  double elapsedSec() const { return elapsed_sec_; }  ///< since the image before; 0 at the first [s]
+  double elapsedSec() const { return elapsed_sec_; }  ///< since the previous image; 0 at the first [s]
   cv::Size size() const { return size_; }
   int longerSide() const { return std::max(size_.width, size_.height); }
-  /// The camera if it distorts, null if not.
+  /// The camera if it distorts, else null.
   const geometry::PinholeCamera* lens() const {
     return camera_ && camera_->hasDistortion() ? &*camera_ : nullptr;
   }
 
-  /// Homography of the undistorted image by the turn since the image before; nothing where an attitude of
-  /// the two or the camera is not known.
+  /// Homography of the undistorted image for the rotation since the previous image; nothing if the camera or
+  /// one of the two attitudes is unknown.
   const std::optional<Eigen::Matrix3d>& turn() const { return turn_; }
-  /// How far the jitter of the attitudes moves what `turn` says [px]: noise makes each turn the opposite of
-  /// the one before, which no vehicle does.
+  /// Error of `turn` due to jitter of the attitudes [px]. Jitter shows as successive rotations in opposite
+  /// directions, which no vehicle performs.
   double turnSigmaPx() const { return camera_ ? camera_->fx * std::sqrt(2.0 * jitter_rad2_) : 0.0; }
 
  private:
-  // White noise of attitudes has six times its variance in the difference of two turns in a row.
+  // The difference of two successive rotations has six times the variance of white attitude noise.
   void noteJitter(const Eigen::Matrix3d& R_now_last) {
     constexpr double kRate = 0.1, kSquares = 6.0, kAxes = 3.0;
     const Eigen::AngleAxisd turned(R_now_last);
@@ -104,7 +104,7 @@ class ImageSequence {
   std::optional<Eigen::Matrix3d> attitude_, turn_;
   double elapsed_sec_ = 0.0;
   std::optional<Eigen::Vector3d> last_turn_rad_;
-  double jitter_rad2_ = 0.0;  ///< variance of an attitude about an axis, a running mean
+  double jitter_rad2_ = 0.0;  ///< running mean of an attitude's variance about one axis
 };
 
 }  // namespace window_ingress::detection

@@ -1,4 +1,4 @@
-/// The tracker's search for a window that is not followed: a new one, or the one that was lost.
+/// The tracker's search for an untracked window: a new one, or the one that was lost.
 #include <algorithm>
 
 #include "detection/quads.hpp"
@@ -7,7 +7,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
+constexpr double kVariantRadiusPx = 4.0;  // search reach when fitting a candidate that the search passed over
 
 }  // namespace
 
@@ -17,8 +17,8 @@ std::optional<WindowObservation> WindowTracker::Impl::lookForWindow(const TrackI
   return detector.detect(input.image, input.stamp_sec, input.camera);
 }
 
-// A window that the search passed over for a better one, where the old one must be, of several the best;
-// another loop of the one that it found says that this is the old one.
+// The best window at the expected place that the search passed over for a better one. If it is another loop
+// of the found window, the found window is the old one.
 std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInput& input,
                                                                   const WindowObservation& found) {
   std::vector<const CandidateTrace*> others;

@@ -14,8 +14,8 @@ using Vector8d = QuadMotion::Vector8d;
 using Matrix8d = QuadMotion::Matrix8d;
 
 constexpr double kMinSigmaPx = 0.05;
-constexpr double kGain = 0.5;           // of the velocity by what the prediction missed
-constexpr double kUnknownMotion = 3.0;  // spread of the first prediction, without velocity, times this
+constexpr double kGain = 0.5;           // correction of the velocity by the prediction's error
+constexpr double kUnknownMotion = 3.0;  // factor of the first prediction's spread, without velocity
 
 Vector8d asVector(const geometry::Quadrilateral& quad) {
   Vector8d v;
@@ -29,7 +29,7 @@ geometry::Quadrilateral asQuad(const Vector8d& v) {
   return quad;
 }
 
-// Columns: movements of the corners by about a pixel each, of one kind of change.
+// Columns: corner movements of about one pixel, for each kind of change.
 Matrix8d kindsOfChange(const geometry::Quadrilateral& quad) {
   const Vector2d centre = geometry::centroid(quad);
   double size = 1e-9;

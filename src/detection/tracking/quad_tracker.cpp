@@ -13,20 +13,21 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr double kMaxShapeChange =
-    0.06;  ///< of aspect, skew and keystone between frames beyond the prediction [sides]
+    0.06;  ///< deviation of aspect, skew and keystone from the prediction, per frame [sides]
 constexpr int kMinSides = 2;
-constexpr double kMinSlackPx = 2.0;   // of the shape, whatever the window's size
-constexpr double kGoodInliers = 0.8;  // part of profiles on a line that is as good as all
+constexpr double kMinSlackPx = 2.0;   // least tolerance of the shape, for any window size
+constexpr double kGoodInliers = 0.8;  // part of profiles on a line that counts as all
 constexpr double kBeyondEnd =
-    0.3;  // a corner may lie this much beyond what was seen of a side, in its lengths
+    0.3;  // a corner may lie this far beyond the visible part of a side [its lengths]
 constexpr double kBeyondEndPx = 6.0;
-/// Of the edge that is followed for a border which shows, and which does not; in the window's sizes.
+/// Greatest distance of the tracked edge from a visible border [px], and from an invisible one [window
+/// sizes].
 constexpr double kApartPx = 2.5, kApartUnseen = 0.08;
-/// A side known no better without its border, and so near to the image's border that not much lies round it,
-/// says nothing of an edge; in longer image sides.
+/// A side gives no position for an edge if its border is this uncertain and it is this close to the image's
+/// border [longer image sides], where few surroundings are visible.
 constexpr double kVaguePx = 0.5, kCutPart = 0.05;
 
-// What is left of the change between two quadrilaterals when place, size and roll are taken out [px].
+// Change between two quadrilaterals after removal of place, size and roll [px].
 double warpBetween(const Quadrilateral& before, const Quadrilateral& after) {
   const Vector2d from = geometry::centroid(before), to = geometry::centroid(after);
   double dot = 0.0, cross = 0.0, norm = 1e-9;
@@ -48,14 +49,14 @@ bool reaches(const FollowedBorder& border, const Vector2d& corner) {
   return beyond <= kBeyondEndPx + kBeyondEnd * (border.b - border.a).norm();
 }
 
-// From the border of the image.
+// Distance from the border of the image.
 double marginOf(const cv::Mat& image, const Vector2d& p) {
   return std::min({p.x(), p.y(), image.cols - 1 - p.x(), image.rows - 1 - p.y()});
 }
 
 bool shows(const cv::Mat& image, const Vector2d& p) { return marginOf(image, p) >= 0.0; }
 
-// The corner between two borders if it was seen.
+// The corner between two borders, if visible.
 std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::PinholeCamera* lens,
                                      const FollowedBorder& before, const FollowedBorder& after) {
   if (!before.fitted || !after.fitted) return std::nullopt;
@@ -133,7 +134,7 @@ void QuadTracker::keep(const Quadrilateral& quad) {
 bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* lens,
                           const RefinedBorders& borders, QuadMotion& motion) {
   const Quadrilateral quad = undistorted(borders.corners, lens), followed = motion.quad();
-  int first = 0;  // of the corners, the one that is the first one followed
+  int first = 0;  // index of the corner that corresponds to the first tracked one
   for (int i = 1; i < 4; ++i)
     if ((quad[i] - followed[0]).norm() < (quad[first] - followed[0]).norm()) first = i;
   Quadrilateral placed;

@@ -10,32 +10,32 @@
 
 namespace window_ingress::detection {
 
-/// The four borders of the tracked window, followed together.
+/// Tracks the four borders of a window together.
 class QuadTracker {
  public:
-  /// Takes the borders of a window that was just found as what is to be followed. \param is_known by what
-  /// lies round it, which is asked again soon: the edges nearest to them are followed for them
+  /// Starts to track the borders of a window just found. \param is_known the borders follow from the
+  /// surroundings, which are compared again soon: the nearest edges are tracked instead
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad,
              bool is_known);
 
-  /// Looks for all of them round the prediction; corrects it by what was found.
+  /// Searches all borders near the prediction and corrects it by those found.
   /// \return true if enough of the borders in view are found, and the shape changed as a window's can
   bool follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion);
 
-  /// Borders and corners as followed last, in canonical order, pixels of the image as it came.
+  /// Borders and corners as tracked last, in canonical order, raw pixels.
   void describe(const cv::Mat& image, const geometry::PinholeCamera* lens, const QuadMotion& motion,
                 WindowObservation& window) const;
-  /// Takes them into memory.
+  /// Updates the memory of the borders tracked last.
   void keep(const geometry::Quadrilateral& quad);
-  /// The borders lie there: edges that were followed beside them are reported as them from now on. A border
-  /// whose edge is too far from it, or was not found, is taken as what is to be followed.
-  /// \return true if there was such a border; the motion is moved then
+  /// Declares that the borders lie there. Edges tracked beside them are reported as these borders from now
+  /// on. If the tracked edge is too far away or was not found, a new edge is learned at the border.
+  /// \return true if an edge was learned; then the motion is moved
   bool realign(const cv::Mat& image, const geometry::PinholeCamera* lens, const RefinedBorders& borders,
                QuadMotion& motion);
 
   int inView() const { return in_view_; }
   int fitted() const { return fitted_; }
-  double quality() const;  ///< mean agreement of the borders sought, 0 to 1
+  double quality() const;  ///< mean agreement of the searched borders, 0 to 1
 
  private:
   bool keepsShape(const QuadMotion& motion) const;

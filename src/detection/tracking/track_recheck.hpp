@@ -9,36 +9,36 @@
 
 namespace window_ingress::detection {
 
-/// Whether a track follows what the search finds. A search can be wrong in the one image in which a track
-/// starts; over several images the place that it finds again and again is the right one.
+/// Checks a track against the search. A search can be wrong in the one image in which a track starts. Over
+/// several images, the place that it finds repeatedly is the right one.
 ///
-/// A new track is on probation: every few images the search is asked as well. As many answers as
-/// `TrackParams::confirmations` that agree confirm it; as many in a row that name one other place end it. A
-/// confirmed track is asked about again only while it is doubtful, and then only its borders are corrected:
-/// another window never takes its place.
+/// A new track is on probation: every few images the search is asked as well. After
+/// `TrackParams::confirmations` answers that agree, the track is confirmed. As many successive answers for
+/// one other place end it. A confirmed track is checked again only while it is doubtful, and then only its
+/// borders are corrected: another window never replaces it.
 class TrackRecheck {
   using Quadrilateral = geometry::Quadrilateral;
 
  public:
-  static constexpr int kEveryFrames = 2;  ///< frames between searches that are asked
+  static constexpr int kEveryFrames = 2;  ///< frames between searches
 
   explicit TrackRecheck(const TrackParams& params) : params_(params) {}
 
-  /// A new window is followed.
+  /// A new window is tracked.
   void start() {
     restart();
     confirmed_ = false;
   }
-  /// The same window again, or its borders elsewhere: what is confirmed remains so.
+  /// The same window was found again, or its borders moved; keeps the confirmation.
   void restart() {
     frames_ = asked_ = for_ = against_ = 0;
     doubtful_ = false;
   }
 
-  /// Something else says that the track may be wrong: the search is asked until it has confirmed it anew.
+  /// The track may be wrong: asks the search until it has confirmed the track anew.
   void doubt() { doubtful_ = true; }
 
-  /// Called in each image in which the window is followed whole. \return true: ask the search
+  /// To be called for each image in which the whole window is tracked. \return true: ask the search
   bool isDue() {
     if (confirmed_ && !doubtful_) return false;
     if (asked_ >= kMaxQuestions * params_.confirmations) {
@@ -52,8 +52,8 @@ class TrackRecheck {
     return true;
   }
 
-  /// \param searched its answer in the same image, if it has one; both undistorted
-  /// \return true: it is to be followed in place of the track
+  /// \param searched the search's answer in the same image, if any; both undistorted
+  /// \return true: track this answer instead
   bool prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
     if (!searched || !geometry::isFinite(*searched)) return false;
     const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
@@ -74,11 +74,11 @@ class TrackRecheck {
   bool isConfirmed() const { return confirmed_; }
 
  private:
-  // Corners of one window agree to the larger of these, the second in its sizes.
+  // Corners of one window agree within the larger of these [px], [sizes].
   static constexpr double kAgreePx = 2.5, kAgreePart = 0.02;
-  static constexpr double kSameRival = 0.08;  // corners of one rival in two images, in sizes
-  static constexpr double kSameSpot = 0.12;   // corners of other borders of the same window, in sizes
-  static constexpr int kMaxQuestions = 4;     // times the confirmations; then it rests
+  static constexpr double kSameRival = 0.08;  // corners of one rival in two images [sizes]
+  static constexpr double kSameSpot = 0.12;   // corners of other borders of the same window [sizes]
+  static constexpr int kMaxQuestions = 4;     // times the confirmations; then checks pause
   static constexpr int kPauseFrames = 60;
 
   static Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
@@ -91,7 +91,7 @@ class TrackRecheck {
   TrackParams params_;
   bool confirmed_ = false, doubtful_ = false;
   int frames_ = 0, asked_ = 0, for_ = 0, against_ = 0;
-  Quadrilateral rival_;  ///< relative to the track: in its sizes, from its centre
+  Quadrilateral rival_;  ///< relative to the track's centre [its sizes]
 };
 
 }  // namespace window_ingress::detection

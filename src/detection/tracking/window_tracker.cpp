@@ -10,20 +10,19 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kReshape = 0.25;        ///< unforeseen change of its size and roll [window sides/s]
-constexpr double kWarp = 0.08;           ///< unforeseen change of aspect, skew and keystone [window sides/s]
-constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
-constexpr double kTurn = 0.12;           ///< unforeseen motion of its place [longer image sides/s]
-constexpr double kKnownTurn =
-    0.5;  ///< part of the unforeseen motion that is left where the attitude is known
-constexpr double kMinCertainty = 0.4;    // below it the track is lost, 0 to 1
-constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
-constexpr double kFoundSigmaPx = 0.3;    // of corners just found
-constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
-constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
+constexpr double kReshape = 0.25;        ///< unpredicted change of size and roll [window sides/s]
+constexpr double kWarp = 0.08;           ///< unpredicted change of aspect, skew and keystone [window sides/s]
+constexpr double kAdaptCertainty = 0.8;  ///< above this certainty the reference adapts to the light, 0 to 1
+constexpr double kTurn = 0.12;           ///< unpredicted motion of place [longer image sides/s]
+constexpr double kKnownTurn = 0.5;     ///< part of the unpredicted motion that remains with a known attitude
+constexpr double kMinCertainty = 0.4;  // below it the track is lost, 0 to 1
+constexpr double kQualityRate = 0.25;  // part of the certainty that one frame replaces
+constexpr double kFoundSigmaPx = 0.3;  // of corners just found
+constexpr double kUnlikePart = 0.7;    // factor of the quality while the ring does not match the reference
+constexpr double kExpectedSigma = 0.01;  // of an expected window's place [longer image sides]
 constexpr int kAlignEvery = 3;           // frames
-constexpr int kCompletionFrames = 10;    // between searches for a border that is in view and not found
-constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
+constexpr int kCompletionFrames = 10;    // between searches for a missing border in view
+constexpr int kElsewhereFrames = 5;      // after which a track away from the expected place is dropped
 
 }  // namespace
 
@@ -36,7 +35,7 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
   if (has_motion) predict();
 }
 
-// What is followed there stays; what is followed elsewhere does not.
+// Keeps a track at the expected place; drops one elsewhere.
 void WindowTracker::Impl::heedExpected(const TrackInput& input) {
   const geometry::Quadrilateral place = undistorted(*input.expected, images.lens());
   if (tracking) {
@@ -51,7 +50,7 @@ void WindowTracker::Impl::heedExpected(const TrackInput& input) {
   has_motion = true;
 }
 
-// An attitude that jitters by more than what is unforeseen without it is worse than none.
+// An attitude that jitters by more than the unpredicted motion is worse than none.
 bool WindowTracker::Impl::knowsTurn() const {
   return images.turn() && images.turnSigmaPx() < kTurn * images.longerSide() * images.elapsedSec();
 }
@@ -85,7 +84,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   return true;
 }
 
-// The search's window becomes the one that is followed.
+// Tracks the window of the search.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
   const geometry::Quadrilateral quad = undistorted(found.corners, images.lens());
   memory.found(is_same, input.stamp_sec);
@@ -112,9 +111,9 @@ void WindowTracker::Impl::watch(const TrackInput& input) {
     appearance_gate.note(window.bhattacharyya, input.stamp_sec);
 }
 
-// Edges beside a border are followed easily for it, such as the back one of a reveal: what lies round the
-// opening says where it is. The edges there are followed from now on, or those followed are kept apart from
-// it.
+// The tracker may follow an edge beside the border, for example the back edge of a reveal. The opening's
+// surroundings give the true border. From then on the edges there are tracked, or the distance to the tracked
+// ones is kept.
 void WindowTracker::Impl::realign(const TrackInput& input) {
   if (--frames_to_alignment > 0 || quad_tracker.inView() < 4) return;
   frames_to_alignment = kAlignEvery;
@@ -128,7 +127,7 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
   window.edges = borders->edges;
 }
 
-// So near that no two sides are in view: the window is where it must be, for a while.
+// True if the vehicle is so near that fewer than two sides are in view. The last place is kept for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
   if (quad_tracker.inView() >= 2 || !memory.settled() || !memory.remembers(input.stamp_sec) ||
       !geometry::contains(motion.quad(), {0.5 * images.size().width, 0.5 * images.size().height}))
@@ -139,7 +138,7 @@ bool WindowTracker::Impl::surrounds(const TrackInput& input) {
   return true;
 }
 
-// Three of four borders in view: a search may tell the fourth. Its answer counts if it is the same border.
+// If a border in view is missing, a search may find it. Its answer counts if it is the same window.
 std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput& input) {
   if (quad_tracker.inView() < 4 || quad_tracker.fitted() == 4) {
     frames_to_completion = 0;
@@ -157,7 +156,7 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   return found;
 }
 
-// While a track is new or doubtful: the search's answer, if it is to be followed in its place.
+// For a new or doubtful track: the search's answer, if it replaces the track.
 std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput& input) {
   if (quad_tracker.inView() < 4 || !recheck.isDue()) return std::nullopt;
   auto found = lookForWindow(input);

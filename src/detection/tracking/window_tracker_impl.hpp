@@ -1,5 +1,5 @@
-/// What a tracker consists of; its methods that follow are in window_tracker.cpp, those that look for what is
-/// not followed in lost_track_search.cpp.
+/// Implementation of the tracker. Tracking is in window_tracker.cpp, the search for untracked windows in
+/// lost_track_search.cpp.
 #pragma once
 
 #include <optional>
@@ -42,7 +42,7 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input, const WindowObservation& found);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
-  /// The search's window is not taken.
+  /// Rejects the window of the search.
   void refuse(RejectReason reason, const std::string& detail) {
     has_own_trace = true;
     own_trace = detector.trace();
@@ -72,8 +72,8 @@ struct WindowTracker::Impl {
   TrackMemory memory;
   AppearanceGate appearance_gate;
   TrackRecheck recheck;
-  WindowObservation window;  // as followed last
-  DetectionTrace own_trace;  // where the search's does not tell what happened
+  WindowObservation window;  // as tracked last
+  DetectionTrace own_trace;  // if the search's trace does not tell what happened
   double certainty = 0.0;
   std::vector<SeenWindow> windows;
   double searched_sec = 0.0;
