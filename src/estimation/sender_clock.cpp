@@ -6,7 +6,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kFadesSecPerSec = 2e-4;  // beyond any quartz, little in a flight
+constexpr double kFadesSecPerSec = 2e-4;  // more than any quartz drifts, little in a flight
 
 }  // namespace
 

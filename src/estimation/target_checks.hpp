@@ -6,11 +6,11 @@
 
 namespace window_ingress::estimation {
 
-/// What the target estimator verifies of what it was told.
+/// Checks by the target estimator of what it was configured with.
 struct TargetEstimator::Checks {
   FramesCheck frames;      ///< mounting, attitude, frame of the velocity
   ParallaxCheck parallax;  ///< the opening's size
-  bool mounting_is_sure;   ///< it was said to be; nothing has to be verified
+  bool mounting_is_sure;   ///< stated as sure, so it is not verified
 };
 
 }  // namespace window_ingress::estimation

@@ -13,7 +13,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kSureMountingRad = 0.001;  ///< standard deviation of what nobody has to check
+constexpr double kSureMountingRad = 0.001;  ///< a mounting stated to be more certain is not checked [rad]
 
 TargetEstimatorParams checked(const TargetEstimatorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -25,7 +25,7 @@ SizeEstimate sizeSaid(const PoseParams& pose) {
   return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
 
-/// The filter's state in the navigator's words.
+/// Converts the filter's state for the navigator.
 TargetEstimate targetFrom(const FilteredWindow& window) {
   TargetEstimate target;
   target.stamp_sec = window.stamp_sec;
@@ -96,16 +96,16 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
   if (velocity_odom_mps) checks_->frames.twist.add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
-  // Tilts change within the lateness: their rates tell nothing of it.
+  // Uses only the heading rate: tilt changes within the delay, so tilt rates say nothing about the delay.
   motion_ = {velocity_odom_mps.value_or(Eigen::Vector3d::Zero()), {0.0, 0.0, turn_odom_radps.z()}};
   if (!motion_.velocity_mps.allFinite() || !motion_.turn_radps.allFinite()) motion_ = {};
   if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
   verifyMounting(stamp_sec);
 }
 
-// Is odom another frame from here on? Then nothing in it is where it was. What is less, the filter's outliers
-// and new starts take; the navigator, which must know the vehicle's way to centimetres, takes less for one
-// (`ContinuousOdometry`).
+// Detects a jump of the odom frame, after which all places in it are invalid. The filter's outlier rejection
+// and restarts handle smaller jumps. The navigator must know the vehicle's path to centimetres and uses lower
+// limits (`ContinuousOdometry`).
 bool TargetEstimator::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
   constexpr double kMaxJumpM = 0.5, kMaxTurnJumpRad = 0.35, kFastestMps = 3.0, kFastestRadps = 3.0;
   const double moved_m = (T_odom_base.translation() - last_T_odom_base_.translation()).norm();
@@ -145,7 +145,7 @@ PoseResult TargetEstimator::estimate(const ObservedImage& image) {
   return estimator_.estimate(*image.window, image.camera, {gravity(image), filter_.sizeOf(*image.window)});
 }
 
-// What was found out about the size belongs to the window it was found out of.
+// Findings about the size hold for one window only.
 void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   if (target_id == target_id_) return;
   target_id_ = target_id;
@@ -192,7 +192,7 @@ std::optional<geometry::Quadrilateral> TargetEstimator::expected(
   return T_odom_camera ? facade_.expected({camera, *T_odom_camera}) : std::nullopt;
 }
 
-// What was found out about the window before does not hold for another one.
+// Forgets the findings about the previous target.
 void TargetEstimator::startAnewIfNot(std::uint32_t target_before) {
   if (facade_.targetId() == target_before) return;
   filter_.reset();
@@ -229,14 +229,14 @@ void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32
 
 std::string TargetEstimator::updateFilter(const ObservedImage& image) {
   const detection::WindowObservation& window = *image.window;
-  const int sides = window.visibleSides();  // none: only corners are known
+  const int sides = window.visibleSides();  // 0: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
   const auto T_odom_camera = cameraAt(window.stamp_sec, image.T_base_camera);
   if (T_odom_camera)
     if (auto other = facade_.whyNotTarget(window, {image.camera, *T_odom_camera}, lookedFor());
         !other.empty())
       return other;
-  // A camera that is not mounted as said may give no pose at all.
+  // Keeps images without a pose, too, because a wrongly mounted camera may give none.
   if (T_odom_camera && !checks_->mounting_is_sure) unverified_.push_back(image);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
   if (!image.T_base_camera) return "mounting of the camera unknown";
@@ -248,7 +248,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
                    height_m);
 }
 
-// That of the IMU, unless it has none or is in other axes.
+// Attitude of the IMU, unless there is none or it uses other axes.
 std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
   const auto imu = attitude_.at(stamp_sec, kMaxPoseGapSec);
   const auto odometry = odometry_.at(stamp_sec, kMaxPoseGapSec);

@@ -1,4 +1,4 @@
-// What the tracker verifies on the way: size, clocks, openness, and what forbids the approach.
+// Checks during flight: size, clocks, openness, and what forbids the approach.
 #include <cmath>
 
 #include "estimation/target_checks.hpp"
@@ -33,7 +33,7 @@ void TargetEstimator::checkSize(const ObservedImage& image, const Eigen::Isometr
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
-// Images that the filter refuses count, too: that they come at the wrong time may be why.
+// Images that the filter refuses count, too, because wrong stamps may be the reason.
 void TargetEstimator::checkClocks(const ObservedImage& image) {
   constexpr double kRateSec = 0.1;
   const auto window = filter_.state(image.stamp_sec);
@@ -53,7 +53,7 @@ void TargetEstimator::judgeOpenness(const ObservedImage& image) {
   const auto window = filter_.state(image.stamp_sec);
   const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
   if (!window || !T_odom_camera) return;
-  // What lies behind a window that moves is taken to move along: all is seen from the window.
+  // What lies behind a moving window is assumed to move with it, so positions are relative to the window.
   const Eigen::Vector3d moved =
       window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
   const Eigen::Translation3d back(-moved);
@@ -61,7 +61,7 @@ void TargetEstimator::judgeOpenness(const ObservedImage& image) {
       {*image.window, image.camera, back * *T_odom_camera, back * window->T_odom_window, window->size.size});
 }
 
-// Once odometry from after the image is there, too: how the vehicle moved then is in the check.
+// Waits for odometry from after the image, because the check needs the vehicle's motion at the image.
 void TargetEstimator::verifyMounting(double odometry_sec) {
   constexpr double kAroundSec = 0.1;
   while (!unverified_.empty() && unverified_.front().stamp_sec + kAroundSec <= odometry_sec) {
@@ -93,7 +93,7 @@ const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
   return checks_->frames.mounting.measuredSize();
 }
 
-// A factor out of all proportion speaks of the frames, not of the window.
+// An extreme factor indicates wrong frames, not another window.
 std::optional<double> TargetEstimator::otherWindow() const {
   constexpr double kLargest = 5.0;
   if (checks_->parallax.verdict() != ParallaxCheck::Verdict::kOther) return std::nullopt;

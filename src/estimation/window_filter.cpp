@@ -16,18 +16,18 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kExpectedSquares = 8.0;
-constexpr double kMeanOver = 30.0;            // images
-constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
-constexpr double kTurnedRad = 0.15;           // of the window since the start before: odometry turned
-constexpr double kFixedYawSigmaRad = 0.005;   // of the yaw bias then, and after a jump
-constexpr double kTurningSec = 3.0;           // that long at most it goes on turning
-constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
-constexpr double kRareSec = 0.25;             // between images: fewer in a second make no path
-constexpr double kSystematicRenewalSec = 20.0;  // at one place
-constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
-constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
-constexpr double kSureOfHeight = 0.2;           // relative
-constexpr double kHeldSigmaGrowth = 1.5;        // the restart may have had a reason
+constexpr double kMeanOver = 30.0;              // images in the running mean
+constexpr double kRestartMeanSquares = 20.0;    // running mean above which the filter restarts
+constexpr double kTurnedRad = 0.15;             // turn of the window between two starts: odometry has turned
+constexpr double kFixedYawSigmaRad = 0.005;     // of the yaw bias after odometry turned or jumped
+constexpr double kTurningSec = 3.0;             // odometry turns for at most this many seconds
+constexpr double kMinScaleMps = 0.1;            // below this speed the path says nothing about the size
+constexpr double kRareSec = 0.25;               // interval of images that are too rare for a path
+constexpr double kSystematicRenewalSec = 20.0;  // renewal of the systematic error at one place
+constexpr double kTimeJumpSec = 1.0;            // an image older by this much is a jump back in time
+constexpr double kMaxHeldSigma = 0.1;           // a less certain size is not kept over a restart
+constexpr double kSureOfHeight = 0.2;           // relative standard deviation
+constexpr double kHeldSigmaGrowth = 1.5;        // of a kept size, because the restart may have had a reason
 
 }  // namespace
 
@@ -36,8 +36,8 @@ struct WindowFilter::Impl {
 
   FilterParams params;
   std::optional<SizeEstimate> nominal_size, held_size;
-  YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // to begin with
-  double unlearned_yaw_rad = 0.0;                        // a standard deviation of it, since odometry turned
+  YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // initially
+  double unlearned_yaw_rad = 0.0;                        // standard deviation, since odometry turned
   double turned_sec = 0.0;
   Viewpoints viewpoints;
   MirrorHypotheses beliefs{params};
@@ -73,7 +73,7 @@ struct WindowFilter::Impl {
     unlearned_yaw_rad = 0.0;
   }
 
-  // A filter that was at odds with its images has nothing worth keeping.
+  // A filter that contradicted its images has nothing worth keeping.
   void hold() {
     if (beliefs.empty()) return;
     held_size.reset();
@@ -85,8 +85,8 @@ struct WindowFilter::Impl {
     held_size = found;
   }
 
-  // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts. What was not
-  // known of that before is not learned for a while, but counts.
+  // A recent turn of odometry must not be learned as a lasting yaw bias. Until the turn is over, the earlier
+  // uncertainty of the bias is not learned, but still counts.
   void fixYawBias() {
     if (!params.yaw_bias_lasts) return;
     turned_sec = stamp_sec;
@@ -106,7 +106,7 @@ struct WindowFilter::Impl {
     return {fitted, nominal_size ? nominal_size->log_covariance : Eigen::Matrix2d::Zero()};
   }
 
-  // A scale that is still open may be anything for a while.
+  // While the scale is uncertain, its estimate is replaced by the nominal height.
   SizeEstimate believedSize() const {
     SizeEstimate size = believed().size();
     if (size.log_covariance(1, 1) < kSureOfHeight * kSureOfHeight) return size;
@@ -139,7 +139,7 @@ struct WindowFilter::Impl {
     ++updates;
   }
 
-  // What was believed before is kept until a new start succeeds.
+  // Keeps the previous beliefs until a new start succeeds.
   bool start(const std::optional<WindowPoseEstimate>& estimate, double stamp, const FilterView& view) {
     if (!estimate) return false;
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera, {}, true, view.motion};
@@ -193,7 +193,7 @@ struct WindowFilter::Impl {
                  {*shared, *first, camera, T_odom_camera, jitter, moves, camera_motion});
   }
 
-  // Images that come too rarely for a path are so far apart that jitter is no motion.
+  // Images too rare for a path are so far apart that jitter does not pass for motion.
   bool moved(const std::optional<OdometrySmoother::Motion>& motion, double stamp,
              const Eigen::Vector3d& position_m) const {
     if (motion) return motion->velocity_mps.norm() >= kMinScaleMps;
@@ -201,8 +201,8 @@ struct WindowFilter::Impl {
     return elapsed_sec >= kRareSec && (position_m - camera_position).norm() >= kMinScaleMps * elapsed_sec;
   }
 
-  // Jitter is no way flown. But where the way is the measure of the scale, its jitter counts as drift: what
-  // the smooth way still has of it would else make the scale too certain.
+  // Jitter is no distance flown. But where distance determines the scale, jitter counts as drift: otherwise
+  // the jitter left in the smoothed path would make the scale too certain.
   double wayTo(const FilterView& view, double stamp) const {
     const double moved_m = (view.T_odom_camera.translation() - camera_position).norm();
     const auto motion = path.motion();

@@ -25,7 +25,7 @@ Eigen::Vector3d rayOf(const geometry::PinholeCamera& camera, const Eigen::Vector
   return {(ideal_px.x() - camera.cx) / camera.fx, (ideal_px.y() - camera.cy) / camera.fy, 1.0};
 }
 
-// Length that, seen square at `range_m`, subtends the angle between two points of the image.
+// Length that, seen head-on at `range_m`, subtends the angle between two points of the image.
 double apparentLength(const geometry::PinholeCamera& camera, double range_m, const Eigen::Vector2d& a_px,
                       const Eigen::Vector2d& b_px) {
   const Eigen::Vector3d a = rayOf(camera, a_px), b = rayOf(camera, b_px);
@@ -54,8 +54,8 @@ void judgeSign(double misfit, WindowPoseEstimate& out) {
       kTrustedYawSigmas * out.sigma_u_rad < smaller && out.log_likelihood_ratio >= kTrustedLogLikelihoodRatio;
 }
 
-// Everything about a view that follows from its solutions: yaw and its spreads, the paper's angles (P12),
-// apparent width and height, side lengths (P21), measured aspect, and whether the sign is to be trusted.
+// Everything that follows from the solutions of a view: yaw and its spreads, the paper's angles (P12),
+// apparent width and height, side lengths (P21), measured aspect, and whether the sign is trusted.
 WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSolutions& solutions,
                             const Eigen::Vector3d& up_camera) {
   WindowPoseEstimate out;
@@ -92,7 +92,7 @@ std::string exceeds(const char* what, double value, const char* relation, double
   return formatted("%s %.3g %s %s %.3g %s", what, value, unit, relation, limit, unit);
 }
 
-// Limits on the pose itself; `result` keeps the first that is broken.
+// Tests the limits on the pose; returns the first violation.
 PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
                    const WindowPoseEstimate& estimate) {
   const Eigen::Isometry3d& T = estimate.best.T_camera_window;
@@ -117,8 +117,8 @@ PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
   return {estimate, PoseReject::kNone, ""};
 }
 
-// Of a window that is seen whole, no corner may lie behind the camera: its image would be that of the
-// opposite direction.
+// No corner of a whole window may lie behind the camera, because its image would be that of the opposite
+// direction.
 bool isInFront(const detection::WindowObservation& window, const WindowPoseEstimate& estimate) {
   if (!window.whole()) return true;
   const auto corners = geometry::openingCorners(estimate.opening);

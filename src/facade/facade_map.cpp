@@ -8,28 +8,30 @@ namespace window_ingress::facade {
 namespace {
 
 constexpr std::size_t kMaxWindows = 64;
-constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two windows can be
+constexpr double kSameSpot = 0.4;  // of the smaller width: two windows cannot be this close
 
-constexpr double kMaxSquares = 3.5 * 3.5;  // Mahalanobis, of a place from the window that it belongs to
-constexpr double kForgetSec = 2.0;         // a window that has no number yet
-constexpr double kForgetGuessSec = 3.0;    // one whose distance was guessed, and which is not seen there
-constexpr double kMinSize = 0.5;           // of the size looked for: paving stones, panes, strips of a frame
-constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights over what the filter is told
-constexpr double kSizeRatio = 1.35;        // beyond which two loops are not one window
-constexpr double kOnWallRatio = 1.5;       // of sizes measured there: one may be cut off, the other a frame's
+constexpr double kMaxSquares = 3.5 * 3.5;  // squared Mahalanobis distance of a place from its window
+constexpr double kForgetSec = 2.0;         // without a sight, for a window without a number
+constexpr double kForgetGuessSec = 3.0;    // without a sight, for a window of guessed distance
+constexpr double kMinSize =
+    0.5;  // of the expected size; smaller ones are paving stones, panes, strips of a frame
+constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights, over the filter's parameter
+constexpr double kSizeRatio = 1.35;        // above which two loops are different windows
+constexpr double kOnWallRatio =
+    1.5;  // of sizes measured on the wall: one may be cut off, the other a frame's
 
 bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b, double ratio) {
   const double wider = a.width_m / b.width_m, higher = a.height_m / b.height_m;
   return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < ratio;
 }
 
-// Where both were measured: a pane, or what is seen through the window, is not the window.
+// Compares sizes if both were measured: a pane, or something seen through the window, is not the window.
 bool sizesAgree(const WindowPlace& a, const WindowPlace& b) {
   return !a.on_wall || !b.on_wall || areAlike(a.size, b.size, kOnWallRatio);
 }
 
-// Where neither was measured: both are as far away as the size looked for says, and another distance is
-// another size. A large loop near the camera is not the window behind it.
+// Compares distances if neither was measured. Both then follow from the expected size, so another distance
+// means another size. A large loop near the camera is not the window behind it.
 bool distancesAgree(const WindowPlace& a, const WindowPlace& b, const Eigen::Vector3d& eye_m) {
   if (a.on_wall || b.on_wall) return true;
   const double further = (a.position_m - eye_m).norm() / (b.position_m - eye_m).norm();
@@ -48,7 +50,7 @@ auto withNumber(Windows& windows, std::uint32_t KnownWindow::*number, std::uint3
   return it == windows.end() ? nullptr : &*it;
 }
 
-// What is known of two that are one. Of two numbers the kept one stays, else the older one's.
+// Combines two entries of one window. The number `kept` stays, else that of the older one.
 void absorb(KnownWindow& window, const KnownWindow& twin, std::uint32_t kept) {
   if (window.id == 0 || (twin.id != 0 && twin.id == kept)) window.id = twin.id;
   window.place = fused(window.place, twin.place);
@@ -64,7 +66,7 @@ void absorb(KnownWindow& window, const KnownWindow& twin, std::uint32_t kept) {
 
 }  // namespace
 
-// In one spot there is no room for another window: there odometry has slid, by more than it was said to
+// Two windows cannot share one spot. There, a large distance means that odometry slid by more than its stated
 // drift.
 double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const {
   const double since_sec = std::abs(stamp_sec - window.last_seen_sec);
@@ -103,7 +105,7 @@ void FacadeMap::learn(double stamp_sec, Sight& sight) {
   window->last_seen_sec = stamp_sec;
   window->score = sight.seen->score;
   window->may_be_target = sight.seen->may_be_target;
-  // Before there is a wall, any rectangle may be seen anywhere: then its look must speak for it.
+  // Without a known wall any rectangle may be anywhere, so its appearance must qualify it.
   const bool is_window = window->may_be_target || window->place.on_wall;
   if (++window->sights >= kMinSights && is_window && window->id == 0) window->id = ++last_id_;
   if (sight.seen->has_appearance)
@@ -121,7 +123,7 @@ void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
       if (a.key != 0 && a.key < b.key) apart_.emplace(a.key, b.key);
 }
 
-// What was seen beside the younger one is not the older one either.
+// Windows seen beside the younger one are not the older one either.
 void FacadeMap::passOnNeighbours(std::uint32_t younger, std::uint32_t older) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> apart;
   for (const auto& [a, b] : apart_)
@@ -129,7 +131,7 @@ void FacadeMap::passOnNeighbours(std::uint32_t younger, std::uint32_t older) {
   apart_ = std::move(apart);
 }
 
-// The older one stays.
+// Merges windows in one spot; the older one stays.
 void FacadeMap::merge(std::uint32_t kept) {
   for (std::size_t i = 0; i < windows_.size(); ++i)
     for (std::size_t k = windows_.size(); --k > i;) {
@@ -144,8 +146,8 @@ void FacadeMap::merge(std::uint32_t kept) {
     }
 }
 
-// Where the distance rested on the size looked for, what was seen may be nearer or further. It is known by
-// the images that were searched: they show others than the one followed.
+// Also drops windows whose distance was guessed from the expected size and that are not seen there. Only
+// images that were searched count: these show other windows than the tracked one.
 void FacadeMap::prune(const FacadeView& view, bool knows_wall, std::uint32_t kept) {
   const bool was_searched = std::any_of(view.windows.begin(), view.windows.end(),
                                         [](const detection::SeenWindow& seen) { return !seen.is_target; });

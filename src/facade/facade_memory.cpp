@@ -11,11 +11,11 @@
 namespace window_ingress::facade {
 namespace {
 
-constexpr double kLongestGapSec = 0.5;   // between images; longer ones show nothing
-constexpr int kSettledUpdates = 15;      // of the filter, after which the window followed is the target
-constexpr double kNextReleaseSec = 1.5;  // as `release_sec`, for the next best after another
-constexpr double kMaxClickM = 1.0;       // beside a window
-constexpr double kNearestSigmaM = 0.03;  // of a place in odom, however well the filter knows it
+constexpr double kLongestGapSec = 0.5;   // between images; longer gaps do not count
+constexpr int kSettledUpdates = 15;      // of the filter, after which the tracked window becomes the target
+constexpr double kNextReleaseSec = 1.5;  // as `release_sec`, for a target that was the next best
+constexpr double kMaxClickM = 1.0;       // of a click from a window
+constexpr double kNearestSigmaM = 0.03;  // least standard deviation of a place in odom
 
 FacadeParams checked(const FacadeParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -100,7 +100,7 @@ void FacadeMemory::adopt(const estimation::FilteredWindow& filtered, std::uint32
   if (*followed == target_id_) target_track_id_ = track_id;
 }
 
-// A reference says which window is meant: one that is clearly more like it is no neighbour but the target.
+// The reference decides: a window that matches it clearly better is the target, not a neighbour.
 void FacadeMemory::yieldToBetterLook() {
   const KnownWindow* now = target();
   if (now == nullptr || is_chosen_ || !now->bhattacharyya) return;
@@ -112,7 +112,7 @@ void FacadeMemory::yieldToBetterLook() {
   if (std::any_of(windows().begin(), windows().end(), is_better)) setTarget(0, false);
 }
 
-// Not what a person chose.
+// Releases a target that is gone, unless a person chose it.
 void FacadeMemory::releaseIfGone(const FacadeView& view) {
   const double elapsed_sec =
       std::clamp(view.stamp_sec - last_view_sec_.value_or(view.stamp_sec), 0.0, kLongestGapSec);
@@ -172,7 +172,7 @@ Answer FacadeMemory::select(std::uint32_t id) {
 }
 
 Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
-  // The one clicked into; of several, as a window and its pane, the one that was seen most often.
+  // The window clicked into; of several, such as a window and its pane, the one seen most often.
   const auto rank = [&](const KnownWindow& window) {
     const double apart_m = (window.place.position_m - point_odom_m).norm();
     return std::make_tuple(std::max(0.0, apart_m - 0.5 * window.place.size.width_m), -window.sights);

@@ -9,10 +9,10 @@
 namespace window_ingress::facade {
 namespace {
 
-constexpr double kMaxOblique = 0.2;  // cosine between sight and way through
+constexpr double kMaxOblique = 0.2;  // cosine between line of sight and window's axis
 constexpr double kFurthestM = 40.0;
-constexpr double kCornerSigmaPx = 3.0;     // as a search finds it
-constexpr double kRangeSigma = 0.3;        // of a distance that rests on the size looked for, part of it
+constexpr double kCornerSigmaPx = 3.0;     // of a corner found by a search
+constexpr double kRangeSigma = 0.3;        // relative, of a distance that follows from the expected size
 constexpr double kBearingSigmaRad = 0.01;  // of the camera in odom
 
 Eigen::Vector3d wayThrough(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
@@ -109,7 +109,7 @@ WindowPlace fused(const WindowPlace& a, const WindowPlace& b) {
     const Eigen::Matrix3d mixed = (part * inverse_a + (1.0 - part) * inverse_b).inverse();
     if (mixed.trace() < least) least = mixed.trace(), best = part;
   }
-  // Heading and size are those of the better measured.
+  // Heading and size come from the better measured place.
   const bool by_b = b.on_wall != a.on_wall ? b.on_wall : b.covariance.trace() < a.covariance.trace();
   WindowPlace place = by_b ? b : a;
   place.covariance = (best * inverse_a + (1.0 - best) * inverse_b).inverse();

@@ -15,12 +15,12 @@ using geometry::Quadrilateral;
 
 constexpr double kSameStamp_sec = 1e-6, kLongest_sec = 10.0;
 constexpr std::size_t kMaxLooks = 600;
-constexpr double kSays = 1.0;        // log odds below which a stretch has said nothing
-constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, beside the part of its size
+constexpr double kSays = 1.0;        // log odds below which a stretch decides nothing
+constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, in addition to kMaxMisfit
 constexpr double kMaxClosed = 0.15;  // of the middle that is needed
-constexpr double kMinQuarter = 0.5, kMinSide = 0.3;  // seen to be open
-constexpr double kMaxMisfit = 0.05;      // of corners against the filtered window, part of its size
-constexpr double kBorderSigma_px = 0.4;  // of a border beyond its own covariance, in each image
+constexpr double kMinQuarter = 0.5, kMinSide = 0.3;  // open part of each quarter and each side
+constexpr double kMaxMisfit = 0.05;                  // of corners against the filtered window [its sizes]
+constexpr double kBorderSigma_px = 0.4;              // of a border beyond its own covariance, in each image
 constexpr double kPositionSigma_m = 0.02, kMinBaseline_m = 0.12;  // of odometry; between two images compared
 constexpr double kMinOpen = 0.5;                                  // of the middle that is needed
 constexpr double kMaxTotal = 12.0;
@@ -31,7 +31,7 @@ Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& cam
   return quad;
 }
 
-// The corners lie as the filtered window's would, but for what a turn of the camera moves.
+// True if the corners match the filtered window, apart from a shift by a turn of the camera.
 bool agrees(const Quadrilateral& seen, const OpennessView& view) {
   const auto expected = geometry::projectOpening(
       view.camera.withoutDistortion(), view.T_odom_camera.inverse() * view.T_odom_window, view.opening);
@@ -43,7 +43,7 @@ bool agrees(const Quadrilateral& seen, const OpennessView& view) {
   return worst_px < kMaxMisfit * size_px + kMisfit_px;
 }
 
-// The sight through this place of the border's plane also passes the opening at the end of its inner faces.
+// True if the line of sight through this place in the border's plane also passes the reveal's rear end.
 bool passesReveal(const Eigen::Vector2d& place, const Eigen::Vector3d& eye_window,
                   const geometry::OpeningSize& opening, double reveal_m) {
   const Eigen::Vector3d front(0.0, (0.5 - place.x()) * opening.width_m, (0.5 - place.y()) * opening.height_m);
@@ -86,7 +86,7 @@ OpennessJudge::Count OpennessJudge::counted() const {
   return all;
 }
 
-// A stretch is over: what it said last stays.
+// Ends a stretch and keeps its last result.
 void OpennessJudge::close() {
   past_ = counted();
   says_ = StretchSays();
@@ -156,7 +156,7 @@ void OpennessJudge::conclude() {
       all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
   const bool most_moves = says_.unsteady > says_.points;
-  // A stretch that hardly knows the depth takes nothing back.
+  // A stretch with an uncertain depth revokes nothing.
   const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;

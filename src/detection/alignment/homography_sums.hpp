@@ -12,9 +12,9 @@ Monomials monomialsOf(float x, float y);
 using Vector8f = Eigen::Matrix<float, 8, 1>;
 using Matrix8f = Eigen::Matrix<float, 8, 8>;
 
-/// Sum over points of an image's derivatives by the eight parameters of a homography near the identity, (1 +
-/// p0, p1, p2; p3, 1 + p4, p5; p6, p7, 1). Each derivative is the image's slope (a, b) times polynomials of
-/// the point's coordinates. So sums of slopes times monomials suffice: 8 per component for a vector and 48
+/// Sum over points of an image's derivatives by the eight parameters of a homography near the identity,
+/// (1 + p0, p1, p2; p3, 1 + p4, p5; p6, p7, 1). Each derivative is the image's slope (a, b) times polynomials
+/// of the point's coordinates. So sums of slopes times monomials suffice: 8 per component for a vector and 48
 /// for the normal equations, whatever the number of channels.
 struct DerivativeSum {
   Eigen::Array<float, 8, 1> a = Eigen::Array<float, 8, 1>::Zero(), b = Eigen::Array<float, 8, 1>::Zero();

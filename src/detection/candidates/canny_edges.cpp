@@ -12,7 +12,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kLanes = cv::v_int16x8::nlanes;
-constexpr int kEveryRow = 4;  ///< the thresholds are estimated from every fourth row
+constexpr int kEveryRow = 4;  ///< spacing of the rows from which the thresholds are estimated
 constexpr uchar kWeak = 1, kStrong = 2, kEdge = 255;
 
 cv::v_int16x8 strength(const cv::v_int16x8& dx, const cv::v_int16x8& dy) {

@@ -12,10 +12,9 @@ namespace window_ingress::detection {
 /// For each side of a window: whether its frame is also visible before its beginning and beyond its end.
 using FrameEnds = std::array<std::array<bool, 2>, 4>;
 
-/// Finds where frames continue, by the contrast of frame and wall, in any haze. Only sides count whose frame
-/// looks like those of two others. \param image CV_8UC3 \param ideal corners, canonical order, pixels of the
-/// undistorted image
-/// \param lens null: no distortion \param sides buffers, reused
+/// Finds where frames continue, by their contrast with the wall, in any haze. Only sides count whose frame
+/// looks like those of two others. \param image CV_8UC3 \param ideal corners, canonical order, undistorted
+/// pixels \param lens null: no distortion \param sides buffers, reused
 FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& ideal,
                        const geometry::PinholeCamera* lens, std::array<SideProfile, 4>& sides);
 

@@ -22,10 +22,10 @@ struct QuadSpread {
 /// keystone. They follow from the visible borders:
 /// - four borders: all eight.
 /// - three (for example, top not visible): place across the parallel pair and along it from the third, roll,
-/// size from the distance of the pair, keystone of the pair. The aspect, and with it the missing border,
-/// follows only from the assumption that the aspect changed as predicted (its spread is small: `warp_px`).
+///   size from the distance of the pair, keystone of the pair. The aspect, and with it the missing border,
+///   follows only from the assumption that the aspect changed as predicted (its spread is small: `warp_px`).
 /// - two parallel ones: place across them, size from their distance, roll, one keystone. The place along them
-/// follows only from attitude and velocity, and its spread grows.
+///   follows only from attitude and velocity, and its spread grows.
 /// - two that meet: place in both coordinates and roll; size only as predicted from its velocity.
 class QuadMotion {
  public:

@@ -20,8 +20,7 @@ constexpr double kGoodInliers = 0.8;  // part of profiles on a line that counts 
 constexpr double kBeyondEnd =
     0.3;  // a corner may lie this far beyond the visible part of a side [its lengths]
 constexpr double kBeyondEndPx = 6.0;
-/// Greatest distance of the tracked edge from a visible border [px], and from an invisible one [window
-/// sizes].
+/// Greatest distance of the tracked edge from a visible border [px], and from an invisible one [sizes].
 constexpr double kApartPx = 2.5, kApartUnseen = 0.08;
 /// A side gives no position for an edge if its border is this uncertain and it is this close to the image's
 /// border [longer image sides], where few surroundings are visible.

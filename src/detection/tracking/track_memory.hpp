@@ -14,8 +14,7 @@ namespace window_ingress::detection {
 /// thus gets its own number.
 class TrackMemory {
  public:
-  static constexpr int kSettled =
-      5;  ///< tracked frames after which a remembered window is not replaced
+  static constexpr int kSettled = 5;  ///< tracked frames after which a remembered window is not replaced
 
   /// \param last number given before
   explicit TrackMemory(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}

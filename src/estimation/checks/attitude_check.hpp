@@ -6,19 +6,19 @@
 
 namespace window_ingress::estimation {
 
-/// Compares two attitudes of the vehicle at the same moments, that of its IMU and that of its odometry: they
-/// must agree about where up is (heading may differ). One of them in other axes, say north-east-down, would
-/// turn the window about.
+/// Compares the vehicle's attitude from the IMU with that from odometry at the same times. Both must agree
+/// about the up direction; heading may differ. Other axes in one of them, such as north-east-down, would give
+/// the window a wrong orientation.
 class AttitudeCheck {
  public:
-  /// \return whether they agree now
+  /// \return true if they agree now
   bool see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Matrix3d& R_odom_base_odometry);
   void clear() { *this = AttitudeCheck(); }
-  /// Open until enough was seen, and while they sometimes agree.
+  /// Open until there are enough comparisons, and while only some of them agree.
   FramesVerdict verdict() const { return verdict_; }
 
  private:
-  int in_a_row_ = 0;  ///< agreeing if positive
+  int in_a_row_ = 0;  ///< successive agreements if positive, else contradictions
   FramesVerdict verdict_{FramesVerdict::kOpen, "attitude: only one of imu and odometry so far"};
 };
 

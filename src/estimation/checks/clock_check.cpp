@@ -12,9 +12,9 @@ constexpr double kStretchSec = 2.0, kLongestGapSec = 0.5;
 constexpr std::size_t kMinSights = 10, kMaxSights = 400;
 constexpr double kMinRateSpread = 0.08;   // rad/s, root mean square about the mean
 constexpr double kMinSigmaRad = 0.003;    // of a direction: corners, attitude
-constexpr double kCorrelated = 4.0;       // so many sights err alike
-constexpr double kModelSigmaSec = 0.015;  // of one stretch: the rate is that of a moment before
-constexpr double kStrayRad = 0.3;         // no offset moves a window so far
+constexpr double kCorrelated = 4.0;       // number of sights that share one error
+constexpr double kModelSigmaSec = 0.015;  // of one stretch: its yaw rate is slightly old
+constexpr double kStrayRad = 0.3;         // no clock offset moves a window this far
 constexpr double kMaxWeight = 10.0;       // stretches; older ones are forgotten
 constexpr double kMaxOffsetSec = 0.05, kMaxSigmas = 3.0;
 
@@ -46,7 +46,7 @@ void ClockCheck::see(const Sight& sight, const Eigen::Vector2d& window_odom_m) {
   }
 }
 
-// Where the window is believed to be takes out what the way flown adds; an error of that is the same for all.
+// The window's estimated position removes the effect of the path flown; its error is the same for all sights.
 std::optional<ClockCheck::Offset> ClockCheck::slopeWith(const Eigen::Vector2d& window_odom_m) const {
   double count = 0.0, rate = 0.0, off = 0.0, rates = 0.0, both = 0.0, offs = 0.0;
   for (const Sight& sight : stretch_) {

@@ -6,18 +6,18 @@
 
 namespace window_ingress::estimation {
 
-/// Camera mounting, attitude and velocity frame, verified in the first metres of motion: what is predicted
-/// against what is seen and flown. A mismatch is named; with it nobody should fly towards anything.
+/// Verifies camera mounting, attitude and velocity frame in the first metres of motion, by predictions of
+/// what is seen and flown. A mismatch is named; do not fly towards anything while there is one.
 struct FramesCheck {
   MountingCheck mounting;
   TwistCheck twist = {};
   AttitudeCheck attitude = {};
 
-  /// Wrong if one of them is; good if mounting and velocity are (an imu need not be there).
+  /// Wrong if one of them is; good if mounting and velocity are (an IMU is optional).
   FramesVerdict verdict() const;
 
   void clear();
-  /// The odometry frame is another one; what was found out stays.
+  /// The odometry frame has changed; findings stay.
   void forgetPlaces();
 };
 

@@ -15,16 +15,16 @@ constexpr char kNothingYet[] = "camera mounting: no way flown yet";
 constexpr double kLastingSec = 10000.0;                    // a mounting does not change
 constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
-constexpr double kHeadingSigmaRad = 0.03;                  // of odometry beside its positions: a compass
-constexpr double kFaultSigmas = 2.0;                       // that it is turned
-constexpr double kCertainSigmas = 2.5;                     // that it is not, and that the size is another one
-constexpr double kImageSpacingM = 0.05;                    // nearer images are not looked at
+constexpr double kHeadingSigmaRad = 0.03;  // of odometry's heading against its positions: a compass
+constexpr double kFaultSigmas = 2.0;       // certainty that the mounting is turned
+constexpr double kCertainSigmas = 2.5;     // certainty that it is not, and of a wrong size
+constexpr double kImageSpacingM = 0.05;    // images closer together are skipped
 constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
 constexpr std::size_t kMaxImages = 16, kEnoughImages = 10;
 constexpr double kKeptSpacingM = 0.1;
 constexpr int kRefusedUntilRestart = 5, kMinUpdates = 15;
 constexpr double kOpenScaleSigma = 0.5, kOpenAspectSigma = 0.2;
-constexpr double kMeasuredSigma = 0.2;  // a size less certain is not told
+constexpr double kMeasuredSigma = 0.2;  // a less certain size is not reported
 constexpr double kMaxMisfit = 2.0, kOtherMountingBetter = 0.3;
 constexpr double kUnexplained = 100.0, kMaxRefusedToTry = 0.3;
 constexpr int kSetupsAnImage = 4;
@@ -39,11 +39,11 @@ FilterParams openParams(FilterParams filter) {
   return filter;
 }
 
-/// A turn of the camera about the body's axes; the axis furthest off, at least and at most.
+/// A turn of the camera about the body's axes, with lower and upper bound for the axis furthest off.
 struct BodyTurn {
   Eigen::Vector3d roll_pitch_yaw_rad;
   double least_rad, most_rad;
-  double least_with_heading_rad;  ///< of yaw and odometry's heading together
+  double least_with_heading_rad;  ///< lower bound for yaw and odometry's heading together
 };
 
 BodyTurn bodyTurn(const CameraTurn& camera) {
@@ -77,7 +77,7 @@ std::string openText(const BodyTurn& turn) {
                    geometry::kDegreesPerRad * turn.most_rad);
 }
 
-// All ways to lay right-handed axes on others.
+// All rotations by right angles.
 std::vector<Eigen::Matrix3d> rightAngles() {
   std::vector<Eigen::Matrix3d> all;
   for (int x = 0; x < 6; ++x)
@@ -96,7 +96,7 @@ std::vector<Eigen::Matrix3d> rightAngles() {
 
 struct MountingCheck::Setup {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  bool exchanged = false;  // x and y of the position
+  bool exchanged = false;  // swaps x and y of the position
 
   Eigen::Isometry3d T_odom_camera(const Image& image) const {
     Eigen::Isometry3d T_odom_base = image.T_odom_base;
@@ -152,7 +152,7 @@ void MountingCheck::clear() {
   verdict_ = {FramesVerdict::kOpen, kNothingYet};
 }
 
-// What was measured of a window does not hold for another; what was found of the mounting does.
+// Measurements of one window do not hold for another; findings about the mounting do.
 void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
   if (seen_id == 0) return;
   if (target_id_ != 0 && seen_id != target_id_) {
@@ -192,7 +192,7 @@ void MountingCheck::see(const detection::WindowObservation& window, const geomet
   if (trial_ || refused_ >= kRefusedUntilRestart) tryNextSetups();
 }
 
-// The last one is always there; those before it are thinned out.
+// Always keeps the last image; earlier ones are thinned out.
 void MountingCheck::keep(const Image& image) {
   if (images_.size() > 1) {
     const Image& last = images_[images_.size() - 2];
@@ -221,7 +221,7 @@ void MountingCheck::judge() {
   judgeTurn(*found);
 }
 
-// Both planar hypotheses must agree: a turned camera and a turned window look alike for a while.
+// Both planar hypotheses must agree, because a turned camera and a turned window look alike for a while.
 void MountingCheck::judgeTurn(const FilteredWindow& found) {
   BodyTurn turn = bodyTurn(found.camera_turn);
   if (found.alternative) {
@@ -245,7 +245,7 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
   if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
 
-// Empty if the size is as it was said to be, or was not said to be known.
+// Empty if the size is as stated, or was not stated as known.
 std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
   if (!said_.log_covariance.isZero(0.0)) return "";
   const Eigen::Vector2d grown(std::log(found.size.width_m / said_.size.width_m),
@@ -257,7 +257,7 @@ std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
                    found.size.height_m, said_.size.width_m, said_.size.height_m);
 }
 
-// Mean of the images' normalised squares; those that do not fit at all count much.
+// Mean of the images' normalised squares; each image that does not fit counts as kUnexplained.
 double MountingCheck::misfitOf(const Setup& setup) const {
   WindowFilter filter(filter_params_, open_);
   const double images = static_cast<double>(images_.size());

@@ -12,33 +12,33 @@
 
 namespace window_ingress::estimation {
 
-/// More than any heading that is off for long: it was turned a moment ago, or the camera is mounted askew.
+/// Greater than any lasting heading error: odometry turned a moment ago, or the camera is mounted askew.
 constexpr double kMaxTurnWithHeadingRad = 0.09;
 
-/// Whether the camera looks where its mounting says, and the opening has the size it is said to have: a
-/// filter of its own that knows neither, fed with images a little apart. What moves past the camera while
-/// odometry flies a known way tells both. Heading and stamps of odometry may be off, too.
+/// Checks that the camera points where its mounting says, and that the opening has its stated size: a
+/// separate filter that knows neither, fed with images some distance apart. The window's motion in the image
+/// during a known motion of the odometry determines both. Heading and stamps of odometry may be off, too.
 ///
-/// Where that filter explains nothing, the mounting may be wrong by a right angle or more, or odometry's axes
-/// exchanged: these are tried on the last images, and the one that explains them is named.
+/// If that filter explains nothing, the mounting may be wrong by a right angle or more, or odometry's axes
+/// may be exchanged. These setups are tried on the last images, and the one that explains them is named.
 class MountingCheck {
  public:
-  /// \param size what the opening is said to be; zero covariance: known, and so to be verified
+  /// \param size stated size of the opening; zero covariance: known, and therefore verified
   MountingCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size);
 
-  /// A filter begins with a whole window and goes on with what is left of it: a camera turned aside has the
-  /// window at the image's border.
+  /// The filter starts with a whole window and continues with partial ones, because a camera turned aside has
+  /// the window at the image's border.
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera,
            const CameraMotion& motion = {});
   void startAnewForAnotherTarget(std::uint32_t seen_id);
   void clear();
-  /// How much odometry's position is seen to walk [m/sqrt(s)].
+  /// Sets the observed drift of odometry's position [m/sqrt(s)].
   void assumeDrift(double m_per_sqrt_sec) { filter_.assumeDrift(m_per_sqrt_sec); }
-  void forgetPlaces();  ///< the odometry frame is another one; what was found out stays
+  void forgetPlaces();  ///< the odometry frame has changed; findings stay
   FramesVerdict verdict() const { return verdict_; }
 
-  /// The size as measured on the way flown, whatever it is said to be; nothing before there is one.
+  /// Size measured in flight, independent of the stated one; nothing before it is measured.
   const std::optional<SizeEstimate>& measuredSize() const { return measured_size_; }
 
  private:
@@ -69,11 +69,11 @@ class MountingCheck {
     double stamp_sec;
     Eigen::Vector3d position_m;
   };
-  std::optional<Place> last_;  ///< where the last image looked at was taken, whole or not
+  std::optional<Place> last_;  ///< where the last image was used, whole or not
   int refused_ = 0;
   std::uint32_t target_id_ = 0;
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
-  std::shared_ptr<Trial> trial_;  ///< other setups, a few with each image; nothing while all is well
+  std::shared_ptr<Trial> trial_;  ///< other setups, a few tried per image; null while all is well
   std::optional<SizeEstimate> measured_size_;
   FramesVerdict verdict_{FramesVerdict::kOpen, "camera mounting: no way flown yet"};
 };

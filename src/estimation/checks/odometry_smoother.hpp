@@ -6,7 +6,7 @@
 
 namespace window_ingress::estimation {
 
-/// The last second of a way, as a straight line in time: what of the odometry is motion, and what is jitter.
+/// Fits a straight line in time to the last second of positions, to separate motion from odometry's jitter.
 class OdometrySmoother {
  public:
   struct Motion {
@@ -14,9 +14,9 @@ class OdometrySmoother {
     Eigen::Vector3d velocity_mps;
   };
 
-  /// A sample that is not newer than the last one starts anew. One that is not finite is ignored.
+  /// A sample no newer than the last one restarts the fit. Non-finite samples are ignored.
   void add(double stamp_sec, const Eigen::Vector3d& position_m);
-  /// Nothing before there are samples enough: five, over a third of the span.
+  /// Nothing until there are five samples over a third of the span.
   std::optional<Motion> motion() const;
   void clear() { samples_.clear(); }
 

@@ -7,14 +7,14 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kSpacingM = 0.02;
-constexpr double kLongestSec = 4.0;  // odometry drifts
+constexpr double kLongestSec = 4.0;  // odometry drifts over longer times
 constexpr std::size_t kMin = 5;
 constexpr double kPlaceSigmaM = 0.015, kBearingSigmaRad = 0.005;  // of one image: odometry, attitude
 constexpr double kSpanFactor =
-    1.5;  // a line through noise at both ends of a way, little helped by those between
+    1.5;  // noise of a line through both ends of a path; points between help little
 constexpr double kSigmas = 2.5;
 constexpr double kLateM =
-    0.15;  // odometry a tenth of a second late: what it moves, and turns the sight, meanwhile
+    0.15;  // motion and turn of the line of sight if odometry is a tenth of a second late
 constexpr double kDriftMPerSqrtSec = 0.02, kTurnRadPerSqrtSec = 0.003;
 constexpr double kOtherSlope = 0.35, kSameSlope = 0.5;
 
@@ -34,7 +34,7 @@ void ParallaxCheck::see(double stamp_sec, const Eigen::Vector3d& camera_odom_m,
   if (sights_.size() >= kMin) judge();
 }
 
-// Slope of the window's way over the camera's, both across the line of sight: 1 - 1/k.
+// Slope of the window's computed motion over the camera's, both across the line of sight: 1 - 1/k.
 void ParallaxCheck::judge() {
   Eigen::Vector3d camera_mean = Eigen::Vector3d::Zero(), window_mean = Eigen::Vector3d::Zero();
   for (const Sight& sight : sights_) {

@@ -5,26 +5,26 @@
 
 namespace window_ingress::estimation {
 
-/// Whether a window is as large as it is said to be, from the first half metre of motion across the line of
-/// sight. From one place a window half as large and half as far away looks the same; but as the camera moves
-/// by b, its place as computed with the wrong size moves by b (1 - 1/k), k being its true size over the one
-/// said. Quicker than `MountingCheck`, which must learn all else too, and made for what is much smaller
-/// than said: 1 - 1/k cannot tell much larger ones.
+/// Checks the stated size of a window in the first half metre of motion across the line of sight. From one
+/// place, a window half as large and half as far away looks the same. When the camera moves by b, the place
+/// computed with the wrong size moves by b (1 - 1/k), where k is the true size over the stated one. This is
+/// quicker than `MountingCheck`, which must learn everything else, too. It is meant for windows much smaller
+/// than stated: 1 - 1/k cannot distinguish much larger ones.
 class ParallaxCheck {
  public:
-  /// \param target_speed_mps at which the window itself may move: what it may have moved proves nothing
+  /// \param target_speed_mps speed at which the window itself may move; such motion proves nothing
   explicit ParallaxCheck(double target_speed_mps = 0.0) : target_speed_mps_(target_speed_mps) {}
 
   enum class Verdict { kOpen, kAsSaid, kOther };
 
-  /// One image's answer. \param camera_odom_m where it was taken \param window_odom_m the window's centre as
-  /// computed with the size said. Not finite, or not later than the last: ignored.
+  /// Adds one image. \param camera_odom_m camera position \param window_odom_m the window's centre, computed
+  /// with the stated size. Ignored if not finite, or not later than the last.
   void see(double stamp_sec, const Eigen::Vector3d& camera_odom_m, const Eigen::Vector3d& window_odom_m);
-  /// Another window, or another odometry frame.
+  /// Call for another window or another odometry frame.
   void clear() { *this = ParallaxCheck(target_speed_mps_); }
 
   Verdict verdict() const { return verdict_; }
-  double factor() const { return factor_; }  ///< true size over the one said; only with a verdict
+  double factor() const { return factor_; }  ///< true size over the stated one; only with a verdict
 
  private:
   struct Sight {

@@ -12,21 +12,21 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kMaxPieceGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
-constexpr double kPieceM = 0.25, kMinWayM = 0.5;  // of a piece; before anything is said
+constexpr double kPieceM = 0.25, kMinWayM = 0.5;  // way of a piece; way before a verdict
 constexpr double kMaxVelocityMisfit = 0.3;        // relative, of way and velocity
-constexpr double kMaxOtherMisfit = 0.4;           // likewise, of the meaning that is named in its place
+constexpr double kMaxOtherMisfit = 0.4;           // relative misfit of the meaning named instead
 constexpr std::size_t kMaxPieces = 24;
-constexpr std::size_t kMinPieces =
-    14;  // for a bias: positions that slide for three seconds are a minority of them
-constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // taken for seen: satellites
-constexpr double kMaxBiasMps = 0.42;  // 0.3 m/s by satellites, whose positions walk while it is measured
-// Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
+constexpr std::size_t kMinPieces = 14;  // for a bias; a slide of three seconds affects a minority of them
+constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // prior: satellite navigation
+constexpr double kMaxBiasMps =
+    0.42;  // satellite navigation: 0.3 m/s, and its positions drift during the measurement
+// Odometry with strong drift: jitter, random walk, scale error, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
-constexpr double kMaxSquares = 9.0;        // of one piece: mad numbers and slides are no frame
-constexpr double kMaxMeanSquares = 2.2;    // of its errors, normalised; 1 is expected
-constexpr double kLeastMeanSquares = 0.2;  // where meanings are compared: what fits better does so by chance
-constexpr double kOtherMeaningBetter = 0.5;  // of the other meaning's squares
-constexpr double kMinEvidence = 10.0;        // for it [nats]
+constexpr double kMaxSquares = 9.0;          // of one piece: outliers and slides are no frame error
+constexpr double kMaxMeanSquares = 2.2;      // of normalised errors; 1 is expected
+constexpr double kLeastMeanSquares = 0.2;    // floor for comparing meanings: a smaller misfit is chance
+constexpr double kOtherMeaningBetter = 0.5;  // of the reported meaning's squares, for another meaning
+constexpr double kMinEvidence = 10.0;        // for another meaning [nats]
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
@@ -36,7 +36,7 @@ const std::array<const char*, TwistCheck::kMeanings> kNames{
     "twist looks like y and z of opposite sign (forward-right-down)",
     "twist looks like the opposite sign"};
 
-// What the velocity in odom would be, were the numbers of the twist meant like this.
+// The velocity in odom for each meaning of the twist's numbers.
 std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3d& R,
                                                             const Eigen::Vector3d& velocity) {
   const Eigen::Vector3d twist = R.transpose() * velocity;
@@ -95,7 +95,7 @@ void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
   judge();
 }
 
-// Pieces that follow each other: of what their errors a second differ by, a steady bias is no part.
+// Compares the error rates of successive pieces, because a steady bias cancels in the difference.
 double TwistCheck::driftMPerSqrtSec() const {
   double squares = kFirstDriftAxes * square(kFirstDriftMPerSqrtSec), axes = kFirstDriftAxes;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
@@ -110,7 +110,7 @@ double TwistCheck::driftMPerSqrtSec() const {
 
 double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares); }
 
-// Of a velocity that is always off by the same, fixed in the body: no fault of its frame.
+// A constant error of the velocity, fixed in the body, is no fault of its frame.
 Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
   if (pieces_.size() < kMinPieces) return Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> errors_mps;
@@ -136,7 +136,7 @@ TwistCheck::Sums TwistCheck::sums() const {
   return sums;
 }
 
-// Zero if there is none.
+// Index of a far better meaning; zero if there is none.
 std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
   const double numbers = 3.0 * static_cast<double>(pieces_.size()), floor = kLeastMeanSquares * numbers;

@@ -5,10 +5,10 @@
 
 namespace window_ingress::estimation {
 
-/// What the hypotheses say of the window so long after the last image, without what the images themselves
-/// were (`stamp_sec`, `updates`, `consistency`). Two that need not be told apart are one with the spread of
-/// both. \param beliefs at least one \param camera_position of the last image, in odom [m]
-/// \param unlearned_yaw_rad of the camera in odom, beside what the hypotheses know: a standard deviation
+/// State of the window `age_sec` after the last image, from the hypotheses; without the fields about the
+/// images (`stamp_sec`, `updates`, `consistency`). Two hypotheses that need not be distinguished are merged
+/// with the spread of both. \param beliefs at least one \param camera_position at the last image, in odom [m]
+/// \param unlearned_yaw_rad standard deviation of the camera's yaw in odom, beyond that of the hypotheses
 FilteredWindow filteredWindow(const MirrorHypotheses& beliefs, const FilterParams& params,
                               const Eigen::Vector3d& camera_position, double unlearned_yaw_rad,
                               double age_sec);

@@ -10,13 +10,13 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kMergeDistance = 0.5;   // squared Mahalanobis
-constexpr double kSplitSigmas = 1.0;     // from here on a mirror image is a mode of its own
+constexpr double kSplitSigmas = 1.0;     // above this a mirror image is a separate mode
 constexpr double kMaxEvidence = 3.0;     // of one image for one hypothesis against the other [nats]
 constexpr double kMinWeight = 0.001;     // a lighter hypothesis is dropped
-constexpr double kHarmlessYawRad = 0.1;  // nearer to each other than this they need not be told apart
+constexpr double kHarmlessYawRad = 0.1;  // hypotheses closer than this need not be distinguished
 constexpr double kImpossible = -1e300;
 
-/// Whether an image that was applied is near enough to what the belief expected.
+/// True if an applied image is close enough to what the belief expected.
 bool passesGate(const std::optional<WindowHypothesis::Outcome>& outcome, const FilterParams& params) {
   return outcome && outcome->squares <= params.nis_gate;
 }
@@ -42,9 +42,8 @@ bool MirrorHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeE
   return true;
 }
 
-// The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
-// Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
-// belief.
+// Searches the alternative again, because a free fit may lack one that an upright window has. Where noise has
+// flattened its minimum, its probability mass is still there. Then the mirrored first belief represents it.
 void MirrorHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size,
                                       const YawBias& yaw_bias, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
@@ -121,7 +120,8 @@ void MirrorHypotheses::mergeOrDrop() {
   }
 }
 
-// A single belief that lies between both mirror images holds some of the other one's mass: it becomes two.
+// A single belief between both mirror images contains part of the other one's probability mass, so it is
+// split.
 void MirrorHypotheses::split(const Eigen::Vector3d& camera_position) {
   if (hypotheses_.size() != 1 || !may_split_) return;
   const WindowHypothesis window = hypotheses_.front().window;

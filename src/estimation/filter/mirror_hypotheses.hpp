@@ -19,7 +19,7 @@ class MirrorHypotheses {
     double log_weight;
   };
 
-  /// The camera's yaw is to be learned from now on, once more.
+  /// Lets the camera's yaw be learned again.
   void learnYaw(double sigma_rad, const Eigen::Vector3d& camera_position) {
     for (Weighted& each : hypotheses_) each.window.addTurn(sigma_rad, camera_position, true);
   }
@@ -33,12 +33,12 @@ class MirrorHypotheses {
   bool start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size, const YawBias& yaw_bias,
              const FilterView& view);
 
-  /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
-  /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
-  /// an outlier to all
+  /// Predicts over the time and the distance flown, and applies an image to all hypotheses.
+  /// \return the outcome for the hypothesis that fits best; nothing, and nothing changed, if the image is an
+  /// outlier for all
   std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec, double way_m);
 
-  /// True if the mirror image is dead, or too near to matter.
+  /// True if the mirror image is ruled out, or too near to matter.
   bool areUnambiguous() const;
 
  private:
@@ -51,7 +51,7 @@ class MirrorHypotheses {
 
   FilterParams params_;
   std::vector<Weighted> hypotheses_;
-  bool may_split_ = false;  ///< no evidence has killed the mirror image yet
+  bool may_split_ = false;  ///< no evidence has ruled out the mirror image yet
 };
 
 }  // namespace window_ingress::estimation

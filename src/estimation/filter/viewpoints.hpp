@@ -9,7 +9,7 @@ namespace window_ingress::estimation {
 /// Places nearer to each other than `FilterParams::kSystematicRenewalM` are one.
 class Viewpoints {
  public:
-  /// How many images were taken from here, one more included.
+  /// Number of images taken from here, including one more.
   double looksWith(const Eigen::Vector3d& position) const;
   void add(const Eigen::Vector3d& position);
   void clear() { places_.clear(); }

@@ -18,8 +18,8 @@ using Weight = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 constexpr int kMaxDescents = 20;
 constexpr double kConverged = 1e-5;  // of a step's squared Mahalanobis length
 constexpr double kPriorPositionSigmaM = 3.0, kPriorYawSigmaRad = 0.7;
-constexpr double kLateSigmaSec = 0.08;   // of odometry's stamps beside the images'
-constexpr double kStandingSigma = 1e-6;  // heights per second: beyond all doubt, yet invertible
+constexpr double kLateSigmaSec = 0.08;   // of odometry's stamps against the images'
+constexpr double kStandingSigma = 1e-6;  // [heights/s]: practically zero, yet invertible
 
 template <typename Llt>
 double halfLogDeterminant(const Llt& llt) {
@@ -40,7 +40,7 @@ class HypothesisFit {
   HypothesisFit(const WindowState& prior, const Matrix& prior_information, const FilterView& view)
       : prior_(prior), prior_information_(prior_information), view_(view) {}
 
-  /// Takes the noise of the odometry along, as it moves the corners at the prior.
+  /// Includes the noise of the odometry, by its effect on the corners at the prior.
   bool setNoise(const FilterParams& params, const ImageMeasurement& image) {
     image_ = &image;
     const auto linear = linearise(image, view_.camera, cameraAt(prior_), prior_);
@@ -110,7 +110,7 @@ class HypothesisFit {
   Eigen::LLT<Weight> noise_;
 };
 
-// Least cost next to a point that is nearly the best: one more step, taken in the quadratic alone.
+// Least cost near an almost optimal point: one more step, in the quadratic model only.
 double leastCostNear(const FitState& point) {
   return point.cost - 0.5 * point.gradient.dot(point.information.llt().solve(point.gradient));
 }
@@ -215,7 +215,7 @@ std::optional<WindowHypothesis::Outcome> WindowHypothesis::update(const FilterPa
   return outcome;
 }
 
-// The distribution of all else given the scale, times that of the scale from before.
+// Combines the distribution of the other values given the scale with the previous distribution of the scale.
 void WindowHypothesis::keepScale(double inverse_height, double variance) {
   constexpr Index kScale = WindowState::kInverseHeight;
   const double found = covariance_(kScale, kScale);

@@ -14,19 +14,18 @@ namespace window_ingress::estimation {
 
 /// One image as the filter sees it.
 struct FilterView {
-  const ImageMeasurement& image;  ///< given the weight that it has beside those already taken from its place
-  const ImageMeasurement&
-      alone;  ///< the same, as if it were the first from its place: decides about outliers
+  const ImageMeasurement& image;  ///< weighted by what it adds to earlier images from its place
+  const ImageMeasurement& alone;  ///< weighted as the first image from its place, for the outlier test
   const geometry::PinholeCamera& camera;
   Eigen::Isometry3d T_odom_camera;
-  /// How far the camera's position lies from the smooth way that it is on. The scale is learned from the way
-  /// alone: jitter that was taken for motion would pass for a way flown past a window of infinite size.
+  /// Offset of the camera's position from its smooth path. The scale is learned from that path alone: jitter
+  /// mistaken for motion would look like flight past a window of infinite size.
   Eigen::Vector3d jitter_m = Eigen::Vector3d::Zero();
-  bool moves = true;         ///< else this image tells nothing about the scale
-  CameraMotion motion = {};  ///< matters where odometry's stamps may be late
+  bool moves = true;         ///< false: this image says nothing about the scale
+  CameraMotion motion = {};  ///< matters if odometry's stamps may be late
 };
 
-/// What is known of the camera's yaw on the vehicle, and of odometry's heading beside its positions.
+/// Estimate of the camera's yaw on the vehicle, and of odometry's heading against its positions.
 struct YawBias {
   double rad = 0.0, sigma_rad = 0.0;
 };
@@ -34,16 +33,16 @@ struct YawBias {
 /// One belief about the window in the odometry frame: an iterated extended Kalman filter on `WindowState`.
 class WindowHypothesis {
  public:
-  /// A wide prior around a pose from a single image; the image itself is still to be applied.
+  /// A wide prior around a pose from a single image; the image itself must still be applied.
   /// \param anchor_m of the state: the camera's position at that image
   WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
                    const SizeEstimate& size, const YawBias& yaw_bias, const Eigen::Vector3d& anchor_m);
 
-  /// Time passes and the camera flies a way to its position: odometry drifts, attitude errors fade.
+  /// Predicts over time and the way flown to the camera's position: odometry drifts, attitude errors fade.
   void predict(const FilterParams& params, double elapsed_sec, double way_m,
                const Eigen::Vector3d& camera_position);
-  /// An error of odometry's heading: it carries the window around the camera.
-  /// \param lasts the camera's yaw on the vehicle is taken to be off by the same, and learned
+  /// Adds an uncertainty of odometry's heading, which moves the window around the camera.
+  /// \param lasts the camera's yaw on the vehicle has the same error, which is then learned
   void addTurn(double sigma_rad, const Eigen::Vector3d& camera_position, bool lasts = false);
 
   struct Outcome {
@@ -66,7 +65,7 @@ class WindowHypothesis {
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.
   double yawFromSight(const Eigen::Vector3d& camera_position) const;
-  /// An error of the heading turns the window about the camera, and is not in it.
+  /// Standard deviation of `yawFromSight`; without heading errors, which turn the window about the camera.
   double yawFromSightSigma(const Eigen::Vector3d& camera_position) const;
   /// The other planar solution: yaw mirrored about the line of sight.
   WindowHypothesis mirrored(const Eigen::Vector3d& camera_position) const;

@@ -29,7 +29,7 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& vector) {
          (angle - std::sin(angle)) / (square * angle) * cross * cross;
 }
 
-// Where the camera was if heading and stamps are off by what the state says.
+// Pose of the camera, corrected by the state's heading error and stamp delay.
 Eigen::Isometry3d correctedCamera(const WindowState& state, const ScaledCamera& at) {
   const double late_sec = state.values(WindowState::kLate);
   const Eigen::Matrix3d R_turned = geometry::yawRotation(-state.values(WindowState::kHeadingBias)) *
@@ -38,7 +38,7 @@ Eigen::Isometry3d correctedCamera(const WindowState& state, const ScaledCamera& 
                             at.T_odom_camera.translation() + late_sec * at.motion.velocity_mps);
 }
 
-// How the pose in the camera moves when the whole world turns about the camera's axes.
+// Derivative of the pose in the camera by a turn of the whole world about the camera's axes.
 Eigen::Matrix<double, 6, 3> byCameraTurn(const Eigen::Isometry3d& T_camera_window) {
   Eigen::Matrix<double, 6, 3> turn;
   turn << -skew(T_camera_window.translation()), Eigen::Matrix3d::Identity();

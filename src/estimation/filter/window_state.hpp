@@ -10,12 +10,12 @@
 
 namespace window_ingress::estimation {
 
-/// What one belief about the window consists of.
+/// State of one belief about the window.
 ///
-/// The window stands upright. Its place is counted from an anchor, the camera's position at the first image,
-/// in heights of the opening: what that image shows does not depend on the unknown scale at all, and later
-/// images depend on the inverse height nearly linearly, so that a scale known to a factor of two is no
-/// trouble.
+/// The window stands upright. Its place is relative to an anchor, the camera's position at the first image,
+/// in heights of the opening. The first image then does not depend on the unknown scale at all, and later
+/// images depend on the inverse height nearly linearly. A scale known to a factor of two is therefore no
+/// problem.
 struct WindowState {
   static constexpr int kSize = 14;
   using Vector = Eigen::Matrix<double, kSize, 1>;
@@ -26,12 +26,12 @@ struct WindowState {
     kZ,
     kYaw,            ///< about odom's z [rad]
     kPitchBias,      ///< lasting error of the camera's attitude about its own x axis [rad]
-    kYawBias,        ///< about its own y axis: mounting alone, odometry's heading is free [rad]
+    kYawBias,        ///< about its own y axis: mounting alone, without odometry's heading [rad]
     kRollBias,       ///< about its own z axis [rad]
     kLogAspect,      ///< logarithm of width over height of the opening
     kInverseHeight,  ///< of the opening [1/m]
-    kHeadingBias,    ///< lasting error of odometry's heading beside its positions [rad]
-    kLate,           ///< how much older than the image odometry of the same stamp is [s]
+    kHeadingBias,    ///< lasting error of odometry's heading against its positions [rad]
+    kLate,           ///< age of odometry relative to the image of the same stamp [s]
     kVelocityX,      ///< of the window, odom axes [heights of the opening per second]
     kVelocityY,
     kVelocityZ,
@@ -48,23 +48,23 @@ struct WindowState {
   Eigen::Isometry3d T_odom_window() const;
   Eigen::Isometry3d T_camera_window(const Eigen::Isometry3d& T_odom_camera) const;
 
-  /// How x, y, z [m] and yaw move with the values.
+  /// Derivative of x, y, z [m] and yaw by the values.
   Eigen::Matrix<double, 4, kSize> poseByValues() const;
 };
 
 /// a - b, the yaw within (-pi, pi].
 WindowState::Vector difference(const WindowState::Vector& a, const WindowState::Vector& b);
 
-/// Where a camera is. The share of its position that does not scale with the window moves it relative to the
-/// window by a fixed number of the window's heights, whatever their length.
+/// Pose of a camera. The part `unscaled_m` of its position moves it relative to the window by a fixed number
+/// of window heights, whatever their length.
 struct ScaledCamera {
   Eigen::Isometry3d T_odom_camera;
   CameraMotion motion;
   Eigen::Vector3d unscaled_m = Eigen::Vector3d::Zero();
 };
 
-/// Weighted residuals of an image, and how they move with the state and with the camera's pose (position in
-/// the camera's axes [m], then rotation [rad]).
+/// Weighted residuals of an image, with derivatives by the state and by the camera's pose (position in the
+/// camera's axes [m], then rotation [rad]).
 struct LinearisedView {
   Residual residual;
   ResidualJacobian<WindowState::kSize> by_state;

@@ -20,7 +20,7 @@ geometry::Quadrilateral normalisedCorners(const RefinementProblem& problem) {
   return corners;
 }
 
-// Deviation by which the width alone becomes `factor` times as large; zero if the belief does not allow it.
+// Deviation that scales the width alone by `factor`; zero if the prior does not allow it.
 Eigen::Vector2d widened(const Eigen::Matrix2d& size_root, double factor) {
   const Eigen::Vector2d wanted(std::log(factor), 0.0);
   const Eigen::Matrix2d square = size_root.transpose() * size_root + 1e-12 * Eigen::Matrix2d::Identity();
@@ -34,8 +34,8 @@ Eigen::Vector2d widened(const Eigen::Matrix2d& size_root, double factor) {
 std::optional<Eigen::Matrix3d> windowHomography(const geometry::Quadrilateral& corners_normalised,
                                                 const geometry::OpeningSize& size) {
   if (!geometry::isFinite(corners_normalised)) return std::nullopt;
-  // Plane in half sizes and image about its centroid: without that the equations are ill-conditioned far
-  // away.
+  // Normalises the plane by half sizes and the image about its centroid, because the equations are otherwise
+  // ill-conditioned for a distant window.
   const Eigen::Vector2d centre = geometry::centroid(corners_normalised);
   double spread = 0.0;
   for (const auto& corner : corners_normalised) spread += 0.25 * (corner - centre).norm();

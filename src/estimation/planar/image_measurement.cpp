@@ -8,7 +8,7 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kMinWhiteSigmaPx = 0.0005;
-constexpr double kUnknownSigmaPx = 1.0;  // of a corner where the observation brings no usable covariance
+constexpr double kUnknownSigmaPx = 1.0;  // of a corner without a usable covariance
 
 bool isUsable(double sigma) { return std::isfinite(sigma) && sigma > 0.0; }
 

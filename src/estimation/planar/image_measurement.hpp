@@ -9,16 +9,16 @@
 
 namespace window_ingress::estimation {
 
-/// What is assumed of the errors of an observation beyond its own covariances.
+/// Assumed errors of an observation beyond its own covariances.
 struct ImageNoise {
   double systematic_sigma_px = 0.15;  ///< of each corner coordinate; the same in every image from one place
-  /// How many images, this one included, share their systematic error. The k-th of them brings only what it
-  /// adds to the k - 1 before: any number of images from one place tells no more than the systematic error
-  /// lets through.
+  /// Number of images that share their systematic error, including this one. The k-th image counts only by
+  /// what it adds to the k - 1 before. The systematic error thus limits the information from one place.
   double looks = 1.0;
-  /// The systematic error is renewed in time as well: no measurement gets more than this times its variance.
+  /// The systematic error is renewed with time, too: no measurement gets more than this times the systematic
+  /// variance.
   double max_looks_variance = 1e12;
-  /// By how much of what it shifts a border the systematic error turns it, at its ends: 1 where corners err
+  /// Turn of a border by the systematic error, at its ends, as a part of its shift: 1 where corners err
   /// independently, less where whole borders are displaced.
   double systematic_turn = 1.0;
 };
@@ -33,10 +33,10 @@ struct LinearisedResidual {
   ResidualJacobian<8> by_corners;
 };
 
-/// The likelihood of one observation. Borders are lines fitted independently of each other, so where the
-/// observation brings their spreads, the residuals are offset and direction of each *visible border* (corners
-/// that share a border are correlated; borders are not). Else they are the corners, weighted by their
-/// covariances. A partial observation has the stretches of its visible borders that were seen, and no corner.
+/// The likelihood of one observation. Borders are fitted independently, so they are uncorrelated, unlike
+/// corners that share a border. If the observation has the borders' spreads, the residuals are offset and
+/// direction of each *visible border*. Otherwise they are the corners, weighted by their covariances. A
+/// partial observation has the visible stretches of its borders, and no corner.
 class ImageMeasurement {
  public:
   /// Corners must be in canonical order. Nothing if numbers are not finite or a visible border has no length.
@@ -45,7 +45,7 @@ class ImageMeasurement {
 
   LinearisedResidual evaluate(const CornerVector& predicted_px) const;
 
-  /// Measured, undistorted; of a partial observation where its four borders cross.
+  /// Measured corners, undistorted; the intersections of the four borders in a partial observation.
   const CornerVector& cornersPx() const { return corners_px_; }
   bool hasCorners() const { return has_corners_; }  ///< false: a border is missing, the corners are zero
   int size() const { return 2 * (border_count_ > 0 ? border_count_ : 4); }
@@ -74,9 +74,8 @@ class ImageMeasurement {
   std::array<Eigen::Matrix2d, 4> corner_weights_;
 };
 
-/// Variance that the `looks`-th measurement from one place must be given, so that all of them together weigh
-/// 1 / (white / looks + systematic); at most `max_looks_variance * systematic`, at least `white +
-/// systematic`.
+/// Variance of the `looks`-th measurement from one place, such that all of them together weigh 1 / (white /
+/// looks + systematic); at most `max_looks_variance * systematic`, at least `white + systematic`.
 double marginalVariance(double white, double systematic, const ImageNoise& noise);
 
 }  // namespace window_ingress::estimation

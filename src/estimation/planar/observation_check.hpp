@@ -11,8 +11,8 @@ namespace window_ingress::estimation {
 /// observation must show all four borders.
 std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera);
 
-/// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
-/// ones are put upright.
+/// False for a partial observation rolled by 45 degrees or more, because the image names its borders. Whole
+/// observations are put upright.
 bool isUpright(const detection::WindowObservation& window, const Eigen::Vector3d& up_camera);
 
 /// The same observation with corners, covariances and edges in canonical order: clockwise, and started so

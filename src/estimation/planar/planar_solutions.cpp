@@ -10,8 +10,8 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kSpare = 2.0;          // of the eight residuals, beside the six that the pose takes
-constexpr double kChiSquared99 = 9.21;  // 99 % of sums of so many squares are smaller
+constexpr double kSpare = 2.0;          // of the eight residuals, beyond the six of the pose
+constexpr double kChiSquared99 = 9.21;  // 99 % quantile of chi-squared with kSpare degrees of freedom
 constexpr double kSameRotationRad = 1e-3;
 
 bool areSame(const PlanarSolution& a, const PlanarSolution& b) {
@@ -22,8 +22,8 @@ bool areSame(const PlanarSolution& a, const PlanarSolution& b) {
 constexpr double kStraySigma = 0.03;       // of a side's length
 constexpr double kMinStrayEvidence = 7.5;  // for a stray border [nats]
 
-// Where keystone alone knows the yaw far worse, the more evidence is needed: what looks like a stray border
-// is then more likely keystone's own noise.
+// Needs more evidence where keystone alone gives a far less certain yaw, because an apparent stray border is
+// then more likely keystone's own noise.
 double neededEvidence(const WindowPoseEstimate& all) {
   return kMinStrayEvidence + 2.0 * std::log(std::max(1.0, all.sigma_u_rad / all.yaw_sigma_rad));
 }

@@ -11,7 +11,7 @@ namespace window_ingress::estimation {
 /// The four corners in canonical order: x0, y0, x1, ... [px of the undistorted image of the same K].
 using CornerVector = Eigen::Matrix<double, 8, 1>;
 
-/// Where the opening's corners should be, and how they move with the pose and with the opening's size.
+/// Predicted corners of the opening, with derivatives by the pose and by the opening's size.
 struct PredictedOpening {
   CornerVector corners_px = CornerVector::Zero();
   /// By translation [px/m] and rotation about the camera's fixed axes, at the window's origin [px/rad].

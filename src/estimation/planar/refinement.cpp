@@ -21,8 +21,7 @@ Vector8d dampedStep(const NormalEquations& equations, double damping) {
   return -damped.ldlt().solve(equations.gradient);
 }
 
-// Step and decrease below which nothing is left to gain: a millionth of the spread that the information
-// allows.
+// True if the step is shorter than a millionth of the spread that the information allows.
 bool hasConverged(const NormalEquations& equations, const Vector8d& step) {
   return step.dot(equations.information * step) < 1e-12 * (1.0 + equations.cost);
 }

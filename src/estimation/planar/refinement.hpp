@@ -11,17 +11,17 @@
 
 namespace window_ingress::estimation {
 
-/// What a pose is fitted to.
+/// Data and priors of a pose fit.
 struct RefinementProblem {
   const ImageMeasurement& image;
   const geometry::PinholeCamera& camera;
-  geometry::OpeningSize opening;  ///< the size that is known, or believed
+  geometry::OpeningSize opening;  ///< known size, or mean of its prior
   std::optional<GravityPrior> gravity = std::nullopt;
-  Eigen::Matrix2d size_root = Eigen::Matrix2d::Zero();  ///< `rootOf` what is believed of it; zero: known
+  Eigen::Matrix2d size_root = Eigen::Matrix2d::Zero();  ///< `rootOf` the size's prior; zero: known
 };
 
-/// What is fitted: a pose, and the opening's size in spreads of what is believed of it (unit variance each;
-/// without effect where the size is known).
+/// Fitted values: a pose, and the opening's size in standard deviations of its prior (unit variance each; no
+/// effect where the size is known).
 struct FitPoint {
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();
   Eigen::Vector2d size_deviation = Eigen::Vector2d::Zero();
@@ -29,7 +29,7 @@ struct FitPoint {
 
 geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point);
 
-/// Cross product of the window's up with gravity's, weighted; and by rotation about the camera's axes.
+/// Weighted cross product of the window's and gravity's up; derivative by rotation about the camera's axes.
 struct GravityResidual {
   Eigen::Vector3d residual;
   Eigen::Matrix3d by_rotation;
@@ -40,7 +40,7 @@ GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d
 /// size.
 struct NormalEquations {
   double cost = 0.0;                  ///< half the sum of squared residuals, gravity included
-  double cost_without_gravity = 0.0;  ///< that of the image and the size
+  double cost_without_gravity = 0.0;  ///< of image and size only
   Eigen::Matrix<double, 8, 8> information = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 1> gradient = Eigen::Matrix<double, 8, 1>::Zero();
 };
@@ -48,9 +48,9 @@ struct NormalEquations {
 /// Nothing if a corner does not lie in front of the camera.
 std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point);
 
-/// The local maximum of the likelihood next to `start`, by Levenberg-Marquardt; covariance by the inverse of
-/// the information matrix, the size's part of it marginalised. Nothing if the start is behind the camera or
-/// the information is singular.
+/// The local maximum of the likelihood near `start`, by Levenberg-Marquardt. The covariance is the inverse of
+/// the information matrix, with the size marginalised. Nothing if the start is behind the camera or the
+/// information is singular.
 std::optional<PlanarSolution> refine(const RefinementProblem& problem, const FitPoint& start);
 
 }  // namespace window_ingress::estimation

@@ -22,9 +22,9 @@ double yawFromSight(const Eigen::Isometry3d& T_camera_window, const Eigen::Vecto
 /// Spread of the relative yaw from its covariance, or infinity if the covariance is not usable.
 double yawSigma(const RelativeYaw& yaw, const Matrix6d& covariance);
 
-/// Spread of the yaw if the opening's size were unknown, from the image without gravity: width and height
-/// join the parameters. Their common scale cannot be told from the distance and does not touch the yaw; so
-/// the height is held, and the width is free. Infinity if the image does not determine it.
+/// Spread of the yaw for an unknown size of the opening, from the image without gravity: width and height
+/// become parameters. Their common scale cannot be separated from the distance and does not affect the yaw,
+/// so the height is fixed and the width is free. Infinity if the image does not determine it.
 double yawSigmaOfUnknownSize(const RefinementProblem& problem, const Eigen::Isometry3d& T_camera_window,
                              const RelativeYaw& yaw);
 

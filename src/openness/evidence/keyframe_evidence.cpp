@@ -8,18 +8,18 @@
 namespace window_ingress::openness {
 namespace {
 
-constexpr double kBeforePlane_m = 0.1;  // of what closes: nothing stands further out
+constexpr double kBeforePlane_m = 0.1;  // a closed surface stands no further in front of the plane
 
 double outside(double value, double low, double high) { return std::max({0.0, low - value, value - high}); }
 
 constexpr int kMaxIds = 1000;
 constexpr double kMaxTooDeep = 0.3;   // of the points
-constexpr double kMaxSigmas = 3.0;    // by which a point may leave the place of one that stands still
+constexpr double kMaxSigmas = 3.0;    // deviation allowed for a static point
 constexpr double kMaxUnsteady = 0.3;  // of the points
-constexpr int kMinPoints = 5;         // that a verdict rests on
-constexpr int kMinToMove = 8;         // points, of which a part that moves tells something
+constexpr int kMinPoints = 5;         // needed for a verdict
+constexpr int kMinToMove = 8;         // points needed to judge motion
 
-// How a depth moves with its part: D = d part / (1 - part).
+// Depth from its part: D = d part / (1 - part).
 double depthOf(double part, double distance_m) { return distance_m * part / std::max(1e-3, 1.0 - part); }
 double depthSigma(double part, double sigma, double distance_m) {
   return distance_m * sigma / std::pow(std::max(1e-3, 1.0 - part), 2);
@@ -85,7 +85,7 @@ void KeyframeEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
 StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
                                    const OpennessParams& params) const {
   StretchSays says;
-  int too_deep = 0;  // points that lie behind any room
+  int too_deep = 0;  // points further behind than any room
   std::vector<double> odds, depths, sigmas;
   for (const Entry& entry : entries_) {
     if (!entry.track.isTested()) continue;

@@ -6,11 +6,11 @@
 namespace window_ingress::openness {
 namespace {
 
-constexpr double kRim = 0.1;  // of a cell: who is seen there may as well be in the next one
+constexpr double kRim = 0.1;  // of a cell: a point in it may belong to the next cell
 
 using Range = OpeningCells::Range;
 
-// Cells that a middle part of the side covers by half at least.
+// Cells that the needed middle part of the side covers at least half.
 Range middle(double needed, double whole, int side) {
   const double part = needed / whole;
   const double from = std::isfinite(part) ? 0.5 - 0.5 * std::clamp(part, 0.0, 1.0) : 0.0;
@@ -64,7 +64,7 @@ bool OpeningCells::isOpen(int x, int y) const {
   return open_[i] >= kSure || images_[i] >= kMinImages;
 }
 
-// Nothing was seen through it, but on both sides of it.
+// True if nothing was seen through the cell itself, but on two opposite sides of it.
 bool OpeningCells::isBetweenOpen(int x, int y) const {
   return !isClosed(x, y) &&
          ((isOpen(x - 1, y) && isOpen(x + 1, y)) || (isOpen(x, y - 1) && isOpen(x, y + 1)));

@@ -58,7 +58,7 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
   return pair;
 }
 
-// Both images' borders, as they move this point along a direction.
+// Variance of this point along a direction, due to the borders of both images.
 double PlaneParallax::borderVariance(const Vector2d& place, const Vector2d& along) const {
   const Eigen::Vector4d weights = weightsAt(place);
   const double common = std::pow(errors_.border_sigma_px, 2);
@@ -92,7 +92,7 @@ std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vec
   point.across_px = across.dot(off) / depth;
   point.place = opening_.fromImage(now_px);
   const double flow = std::pow(errors_.flow_sigma_px, 2);
-  // The way is known from two positions.
+  // The baseline follows from two positions.
   const double way = 2.0 * std::pow(point.part * errors_.position_sigma_m, 2);
   point.part_sigma = std::sqrt((flow + borderVariance(point.place, along)) / std::pow(point.gain_px, 2) +
                                way / std::pow(baseline_m_, 2));

@@ -13,7 +13,7 @@ constexpr int kAlong = 4, kAcross = 4;  // half of the patch [px]
 constexpr int kValues = (2 * kAlong + 1) * (2 * kAcross + 1);
 using Patch = std::array<float, kValues>;
 constexpr int kSteps = 8;
-constexpr double kArrived_px = 0.02, kFurthest_px = 4.0;  // of a step; of the way from the guess
+constexpr double kArrived_px = 0.02, kFurthest_px = 4.0;  // last step; distance from the guess
 constexpr double kLikeness = 0.8;                         // correlation of the two patches
 
 float at(const cv::Mat& grey, float x, float y) {
@@ -26,7 +26,7 @@ float at(const cv::Mat& grey, float x, float y) {
   return top + fy * (bottom - top);
 }
 
-// Grey values around a place, in rows across the edge; their mean taken off.
+// Grey values around a place, in rows across the edge, without their mean.
 bool cut(const cv::Mat& grey, const cv::Point2f& place, const cv::Point2f& normal, Patch& patch) {
   constexpr float kReach = kAlong + kAcross + 1;
   if (!(place.x > kReach && place.y > kReach && place.x < static_cast<float>(grey.cols) - 1 - kReach &&

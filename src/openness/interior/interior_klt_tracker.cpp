@@ -16,19 +16,19 @@ namespace {
 using detection::WindowObservation;
 using geometry::Quadrilateral;
 
-constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
+constexpr int kReach = 13, kLevels = 2;  // Lucas-Kanade: side of its patch [px], pyramid halvings
 constexpr double kMinSide_px = 24.0;
-constexpr double kMargin = 0.07;       // beside the border that is not looked at, part of the opening's sides
-constexpr double kMinContrast = 5e-5;  // of a corner: lesser eigenvalue of the gradient's moments
-constexpr double kMinEdgeSlope = 3.0;  // [grey levels a pixel]
-constexpr double kMaxReturn_px = 0.8;  // of a point that is followed there and back
-constexpr double kFlowSigma_px = 0.35;  // of a followed point
+constexpr double kMargin = 0.07;        // margin inside the border that is skipped [opening's sides]
+constexpr double kMinContrast = 5e-5;   // of a corner: lesser eigenvalue of the gradient's moments
+constexpr double kMinEdgeSlope = 3.0;   // [grey levels per pixel]
+constexpr double kMaxReturn_px = 0.8;   // of a point tracked forward and back
+constexpr double kFlowSigma_px = 0.35;  // of a tracked point
 constexpr double kMaxGrowth = 1.25;     // of the window in the image, until the next keyframe
 constexpr double kMaxKeyframeAge_sec = 4.0;
 constexpr int kMinTracked = 6;       // with fewer left the next keyframe is taken
 constexpr double kMinShared = 0.4;   // part of the keyframe's points that must be left
-constexpr double kSpacing = 0.05;    // between points, part of the straightened image's longer side
-constexpr double kMinAge_sec = 0.3;  // of a key image whose points were lost
+constexpr double kSpacing = 0.05;    // between points [longer sides of the straightened image]
+constexpr double kMinAge_sec = 0.3;  // of a keyframe whose points were lost
 constexpr int kGradientBlock = 5;
 constexpr double kBlur_px = 0.8;  // against the noise of dark images
 
@@ -38,7 +38,7 @@ std::array<cv::Point2f, 4> toCv(const Quadrilateral& quad) {
   return points;
 }
 
-// The rectangle whose sides are as long as the quadrilateral's in the mean, scaled down to `max_side_px`.
+// Rectangle with the quadrilateral's mean side lengths, scaled down to `max_side_px`.
 cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
   const auto sides = geometry::sideLengths(corners);
   const double width = 0.5 * (sides[0] + sides[2]), height = 0.5 * (sides[1] + sides[3]);
@@ -46,7 +46,7 @@ cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
   return {static_cast<int>(std::lround(scale * width)), static_cast<int>(std::lround(scale * height))};
 }
 
-// From the image to its straightened opening; outer borders of the outermost pixels lie on the opening's.
+// Homography from the image to its straightened opening; the outermost pixels end at the opening's border.
 cv::Matx33d straightening(const Quadrilateral& corners, const cv::Size& size) {
   const auto from = toCv(corners);
   const float right = static_cast<float>(size.width) - 0.5f, bottom = static_cast<float>(size.height) - 0.5f;
@@ -73,7 +73,7 @@ struct InteriorKltTracker::Impl {
   struct Track {
     std::uint16_t id;
     cv::Point2f key, now;  // in the straightened images
-    cv::Point2f normal;    // of an edge; zero of a corner
+    cv::Point2f normal;    // of an edge; zero for a corner
     bool isEdge() const { return normal.x != 0.0f || normal.y != 0.0f; }
   };
 
@@ -99,10 +99,10 @@ struct InteriorKltTracker::Impl {
   bool has_key = false;
   std::uint32_t target_id = 0;
   double last_sec = 0.0;
-  int channel = 1;          // of the image, that is looked at
+  int channel = 1;          // channel of the image that is used
   cv::Size size;            // of the straightened images
-  double key_scale = 1.0;   // pixels of the key image a straightened one
-  cv::Matx33d to_straight;  // of the image looked at last
+  double key_scale = 1.0;   // keyframe pixels per straightened pixel
+  cv::Matx33d to_straight;  // of the last image
   cv::Matx33d key_to_image;
   cv::Mat cut, straight, key_straight, mask, contrast;
   SlopeImage slopes;
@@ -150,7 +150,7 @@ void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObserva
   has_key = true;
 }
 
-// That in which most is to be seen: a brown cupboard before a blue wall may be as bright as the wall.
+// Chooses the channel with the most edges: a brown cupboard before a blue wall may be as bright as the wall.
 void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
   int most = -1, best = 1;
   for (channel = 0; channel < 3; ++channel) {
@@ -163,7 +163,7 @@ void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadril
   straighten(image, corners);
 }
 
-// The strongest corners, each some way from the others; what the margin shows may be the reveal.
+// Finds the strongest corners, spread out. Skips the margin, because it may show the reveal.
 void InteriorKltTracker::Impl::findPoints() {
   points.clear();
   cv::cornerMinEigenVal(straight, contrast, kGradientBlock);

@@ -12,25 +12,25 @@
 
 namespace window_ingress::openness {
 
-/// Regions of the straightened opening in which no edge is seen. An edge belongs to the nearer of the two
-/// surfaces that it parts, so the regions on both its sides are as deep as the edge, and so is all of them:
-/// the bare wall beside a cupboard is seen through all of the opening that it fills. This does not hold where
-/// two surfaces look so alike that no edge is seen between them; so regions that are too dark or too bright
-/// to show one are none.
+/// Regions of the straightened opening without a visible edge. An edge belongs to the nearer of the two
+/// surfaces that it separates, so the regions on both its sides are as deep as the edge, over their whole
+/// extent. The bare wall beside a cupboard, for example, is seen through the whole part of the opening that
+/// it fills. This does not hold where two surfaces look so alike that no edge is visible between them. So
+/// regions too dark or too bright to show an edge do not count.
 class SmoothRegions {
  public:
   /// \param grey CV_8UC1, the straightened opening
-  /// \param most_slope that noise and shading have [grey levels a pixel]
+  /// \param most_slope largest slope of noise and shading [grey levels per pixel]
   void find(const cv::Mat& grey, double most_slope) {
     cv::pyrDown(grey, small_);
     cv::GaussianBlur(small_, small_, {3, 3}, 0.0);
     slopes_.take(small_);
     slopes_.flatterThan(kShrink * most_slope, is_smooth_);
-    cv::erode(is_smooth_, is_smooth_, cv::Mat());  // closes gaps of up to two of its pixels in edges
+    cv::erode(is_smooth_, is_smooth_, cv::Mat());  // closes gaps in edges of up to two of its pixels
     fillCells(cv::connectedComponents(is_smooth_, labels_, 4, CV_32S));
   }
 
-  /// Cells of `OpeningCells` that regions fill which end at this point, one bit each, row by row.
+  /// Cells of `OpeningCells` filled by regions that end at this point, one bit each, row by row.
   std::uint64_t cellsBeside(const cv::Point2f& point) const {
     const int x = static_cast<int>(std::lround(point.x / kShrink));
     const int y = static_cast<int>(std::lround(point.y / kShrink));
@@ -44,11 +44,11 @@ class SmoothRegions {
 
  private:
   static constexpr int kSide = OpeningCells::kSide;
-  static constexpr int kShrink = 2;        // of the image: faint edges part regions, noise does not
-  static constexpr int kReach_px = 8;      // of a point to the regions beside its edge
+  static constexpr int kShrink = 2;        // reduction: faint edges separate regions, noise does not
+  static constexpr int kReach_px = 8;      // from a point to the regions beside its edge
   static constexpr double kFilled = 0.75;  // of a cell's pixels
   static constexpr double kDarkest = 16.0,
-                          kBrightest = 244.0;  // mean of a region in which an edge would be seen
+                          kBrightest = 244.0;  // mean of a region in which an edge would be visible
 
   void fillCells(int regions) {
     brightness_.assign(static_cast<std::size_t>(regions), 0.0);
@@ -78,9 +78,9 @@ class SmoothRegions {
 
   SlopeImage slopes_;
   cv::Mat small_, is_smooth_, labels_;  // half as wide and high
-  std::vector<double> brightness_;      // by label: sum of it, and pixels, and those in one cell
+  std::vector<double> brightness_;      // by label: sum, pixels, pixels in one cell
   std::vector<int> pixels_, within_;
-  std::vector<std::uint64_t> cells_of_;  // by label; those that it fills
+  std::vector<std::uint64_t> cells_of_;  // by label: cells that it fills
 };
 
 }  // namespace window_ingress::openness
