@@ -27,7 +27,7 @@ struct Candidate {
                                   Eigen::Vector2d::Zero()};  ///< in the raw level
   CandidateSource source = CandidateSource::kContour;
   double solidity = 1.0;  ///< area of the outline over area of its hull
-  double closure = 1.0;   ///< 1: sides end in its corners; lower the further they stop short or run beyond
+  double closure = 1.0;   ///< 1: sides end in its corners; towards 0 if they stop short or run beyond
   std::array<SideSupport, 4> sides;
 };
 
