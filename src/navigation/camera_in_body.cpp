@@ -9,8 +9,8 @@
 namespace window_ingress::navigation {
 namespace {
 
-constexpr double kWidestFovRad = 2.8;  // who sees more is taken to see this much
-constexpr double kLooksForward = 0.7;  // least part of the axis: some 45 degrees
+constexpr double kWidestFovRad = 2.8;  // wider fields of view count as this one
+constexpr double kLooksForward = 0.7;  // least forward component of the optical axis: some 45 degrees
 constexpr double kBesideBodyM = 0.02;
 
 double narrowerTwice(double one_rad, double other_rad) {

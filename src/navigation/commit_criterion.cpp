@@ -12,17 +12,16 @@ namespace window_ingress::navigation {
 
 namespace {
 
-// From the measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
+// Fitted: measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
-constexpr double kGustSec = 3.0;       // that gusts come and go in: of few, the strongest was not among them
-constexpr double kPartCarried = 0.73;  // of the way until a gust is answered and steered away
-constexpr double kMaxHeadingErrorRad = 0.2;  // against the window's normal
-constexpr double kMaxAcrossMps = 0.3;        // across the window's normal, at the commit line
-constexpr double kUsualOdometryMps =
-    0.06;  // between position and velocity over two seconds, where all is well
+constexpr double kGustSec = 3.0;       // time scale of gusts: a short measurement may miss the strongest
+constexpr double kPartCarried = 0.73;  // fraction of the distance until a gust is answered and corrected
+constexpr double kMaxHeadingErrorRad = 0.2;  // heading against the window's normal
+constexpr double kMaxAcrossMps = 0.3;        // velocity across the window's normal at the commit line
+constexpr double kUsualOdometryMps = 0.06;  // usual difference between position and velocity over two seconds
 
-/// From here on the opening is larger than the image. Nobody commits from further off the axis than half of
-/// the opening; there, yaw and height keep it in view.
+/// Distance below which the opening is larger than the image. A commit never starts further off the axis than
+/// half of the opening; there, yaw and height keep it in view.
 double viewDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                     const VehicleParams& vehicle) {
   const double half_v_rad = std::max(0.1, vehicle.vertical_fov_rad / 2.0 - std::abs(pitch_rad));
@@ -46,36 +45,35 @@ double commitDistance(const RelativeState& relative, const geometry::OpeningSize
 
 namespace {
 
-/// Without sight of the window, so far and on the way to the plane.
+/// Time without sight of the window: so far, and until the plane.
 double blindSec(const CommitCriterionInput& input, const NavigatorParams& params) {
   const double view_m = viewDistance(input.relative, input.opening, input.pitch_rad, params.vehicle);
   const double way_m = std::clamp(input.relative.distance(), 0.0, view_m);
   return input.unseen_sec + way_m / params.commit.speed_mps;
 }
 
-/// Where the vehicle is by the time it answers.
+/// Where the vehicle is after its response time.
 Eigen::Vector3d coastedOffset(const RelativeState& relative, const NavigatorParams& params) {
   return relative.position_window_m +
          relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
 }
 
-/// Of an offset, what is left when the nose is in the opening: it is steered away meanwhile, after a delay.
+/// Fraction of an offset that remains when the nose reaches the opening, after steering with a delay.
 double remaining(const RelativeState& relative, const NavigatorParams& params) {
   const double way_m = relative.distance() - params.vehicle.half_length_m;
   const double steering_sec = way_m / params.commit.speed_mps - params.vehicle.response_sec;
   return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
 }
 
-/// At the plane, if what the velocity has beside what steering asks of it goes on: on the axis if the vehicle
-/// closes in on it as fast as it is steered, off it if something keeps it there.
+/// Offset at the plane if the measured velocity beyond what steering asks for persists. Zero if the vehicle
+/// closes in on the axis as fast as it is steered; otherwise a steady disturbance keeps it off the axis.
 Eigen::Vector3d settled(const RelativeState& relative, const NavigatorParams& params) {
   const Eigen::Vector3d offset = coastedOffset(relative, params);
   const Eigen::Vector3d kept = offset + relative.velocity_window_mps / params.align.lateral_gain_hz;
   return kept + remaining(relative, params) * (offset - kept);
 }
 
-/// For so long a velocity that nobody expects carries the vehicle past the axis: until it is answered, and
-/// steered away.
+/// How long an unexpected velocity carries the vehicle off the axis: until it is answered and corrected.
 double carriedSec(const NavigatorParams& params) {
   return params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz;
 }
@@ -84,15 +82,15 @@ double missByOdometry(double odometry_mps, const NavigatorParams& params) {
   return std::max(0.0, odometry_mps - kUsualOdometryMps) * carriedSec(params);
 }
 
-/// How far gusts carry the vehicle past the axis. What is measured in calm air, too, carries nobody off, and
-/// hides as much of what does.
+/// How far gusts carry the vehicle off the axis. The gusts measured in calm air are noise: they move no
+/// vehicle, and hide real gusts of the same size.
 double carriedM(double gust_mps, double watched_sec, const NavigatorParams& params) {
   const double beyond_calm_mps =
       std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps) * (1.0 + kGustSec / watched_sec));
   return kPartCarried * carriedSec(params) * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
 }
 
-/// What chance may add: `sigma_factor` standard deviations.
+/// Random part of the miss: `sigma_factor` standard deviations.
 double spreadOf(double sigma_m, double gust_m, double drift_m, const NavigatorParams& params) {
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }

@@ -32,21 +32,21 @@ struct Navigator::Impl {
         reason(waiting()) {}
 
   NavigatorParams params;
-  const double told_braking_mps2 = params.vehicle.braking_mps2;  ///< what is measured may be less
-  const CommitParams told_commit = params.commit;                ///< a mission may have a policy of its own
+  const double told_braking_mps2 = params.vehicle.braking_mps2;  ///< the measured value may be smaller
+  const CommitParams told_commit = params.commit;                ///< a mission may have its own policy
   InputMonitor monitor;
   SetpointLimiter limiter;
   DisturbanceObserver observer;
   PendingYaw turn;
   State state = State::kIdle;
-  std::unique_ptr<Behaviour> behaviour;  ///< of the state, if it has one
+  std::unique_ptr<Behaviour> behaviour;  ///< of the present state, if it has one
   std::string reason;
   MissionState memory;
   FlownWindow flown_at;
   Setpoint last_setpoint;
   Home home;
   MissionClock clock;
-  bool stands_down = false;  ///< aborted when it had ended already: keeps no place any more
+  bool stands_down = false;  ///< aborted after the mission's end: no longer keeps its place
 
   std::string waiting() const { return "waiting for start; " + whatIsAssumed(params.commit); }
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
@@ -82,7 +82,7 @@ MeasuredVehicle Navigator::Impl::measuredVehicle() const {
           monitor.odometry().biasMps()};
 }
 
-// One that cannot be flown by changes nothing: no mission starts with it.
+// An unusable camera changes nothing: no mission starts with it.
 void Navigator::Impl::useCamera(const std::optional<CameraInBody>& camera) {
   if (camera && faultOf(*camera).empty()) params.vehicle = withCamera(params.vehicle, *camera);
 }
@@ -128,8 +128,8 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   flown_at.follow(flies_at ? memory.trusted : std::nullopt, situation, monitor.odometry());
 }
 
-// A window once flown at is not exchanged for another one on the way, and none is flown at from behind.
-// COMMIT judges for itself what it sees.
+// The mission does not exchange a window that it flies at, and flies at none from behind. COMMIT judges its
+// own sightings.
 void Navigator::Impl::keepToWindow(Situation& situation) const {
   if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
   const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, memory);
@@ -175,8 +175,8 @@ void Navigator::Impl::change(State to, const std::string& why) {
   memory.was_near = memory.was_near || to == State::kApproach;
   behaviour = behaviourOf(to, state, clock.nowSec(), !memory.was_near, params);
   if (to == State::kBackOff) ++memory.back_offs;
-  if (isMoving(to) && to != State::kCommit) memory.committed.reset();  // its place is that of back then
-  if (to == State::kHold) observer.restart();  // what moves the vehicle now is not known to be wind
+  if (isMoving(to) && to != State::kCommit) memory.committed.reset();  // its place is outdated
+  if (to == State::kHold) observer.restart();  // the present disturbance may not be wind
   state = to;
 }
 

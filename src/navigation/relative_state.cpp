@@ -13,8 +13,8 @@ Eigen::Matrix3d uprightRotation(const TargetEstimate& target) {
 
 namespace {
 
-/// First order: a window that moves by dp and turns by dpsi about the vertical moves the vehicle's lateral
-/// offset by -e_y . dp - x dpsi.
+/// To first order, a window that moves by dp and turns by dpsi about the vertical changes the vehicle's
+/// lateral offset by -e_y . dp - x dpsi.
 double lateralSigma(const Eigen::Matrix3d& R_odom_window, double x_m,
                     const Eigen::Matrix<double, 6, 6>& covariance) {
   Eigen::Matrix<double, 6, 1> jacobian = Eigen::Matrix<double, 6, 1>::Zero();

@@ -8,10 +8,10 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr double kNearAxisM = 0.3;
-constexpr double kFunnelDwellSec = 0.2;  // within the funnel, before going on
-constexpr double kAmbiguousSec = 1.2;    // of the yaw's sign, before a height probe
+constexpr double kFunnelDwellSec = 0.2;  // time in the funnel before ALIGN ends
+constexpr double kAmbiguousSec = 1.2;    // unknown yaw sign for this time starts a height probe
 constexpr double kProbeMps = 0.4;
-constexpr double kWellInFunnel = 0.9475;  // of its half width
+constexpr double kWellInFunnel = 0.9475;  // fraction of the funnel's half width
 }  // namespace
 
 void HeightProbe::beginAt(double height_m) {
@@ -119,7 +119,7 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
   return decision;
 }
 
-// Motion may yet show the size of the opening, or that the frames are as they are said to be.
+// Vertical motion may still reveal the opening's size, or confirm the configured frames.
 Decision Align::probeForLeave(const Situation& situation, const RelativeState& relative, Decision decision) {
   const double height_m = situation.vehicle->T_odom_base.translation().z();
   probe_.beginAt(height_m - relative.vertical());

@@ -9,9 +9,9 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kLooksWithinM = 0.4;
-constexpr double kWallOfFunnel = 0.35;  // of its half width: there the speed shrinks, to zero at the wall
+constexpr double kWallOfFunnel = 0.35;  // outer part of the funnel's half width: here the speed falls to zero
 constexpr double kLeaveFactor = 1.3,
-                 kLeaveSec = 0.5;  // out of the funnel by so much, for so long: align again
+                 kLeaveSec = 0.5;  // outside kLeaveFactor funnels for this many seconds: align again
 
 }  // namespace
 
@@ -77,7 +77,7 @@ std::optional<Event> Approach::judge(const CommitCriterion& criterion, const Rel
   if (at_line && criterion.holds) return Event::kCommitReached;
   const double outside_sec =
       heldSec(criterion.fullness > kLeaveFactor, situation.now_sec, outside_since_sec_);
-  // Aside the line is further away from the window.
+  // Beside the axis the commit line is further away from the window.
   const bool waits =
       at_line || (looks_ && relative.distance() <= criterion.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);

@@ -10,11 +10,11 @@
 namespace window_ingress::navigation {
 namespace {
 
-/// Beyond it nobody knows which of the two to fly by when the window is out of sight.
+/// With a larger difference between position and velocity, neither is reliable without sight of the window.
 constexpr double kMaxDisagreementMps = 0.35;
-constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias can be told from a slide
+constexpr double kMaxUnexplainedMps = 0.08;  // until a steady velocity bias can be told from a slide
 
-// Of what a vehicle can gain in its response, so much is asked for forward while more than this across is.
+// The forward speed may rise by this share of its gain per response time; by more below kMuchAcrossMps.
 constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
 
 std::string whyNoOdometryToCommitBy(const MissionState& memory) {
@@ -27,8 +27,8 @@ std::string whyNoOdometryToCommitBy(const MissionState& memory) {
   return "";
 }
 
-/// How far the speed forward may be asked to rise beyond what it is while the speed across is to change by so
-/// much: what accelerates slowly spends on the way forward what it needs to stay before the opening.
+/// Limit [m/s] on the rise of the forward speed while the velocity across must change by `across_mps`: a
+/// vehicle with little acceleration would spend it on forward flight and miss the opening's axis.
 double aheadMps(double across_mps, const NavigatorParams& params) {
   const double in_its_response_mps = params.vehicle.braking_mps2 * params.vehicle.response_sec;
   return kShareAhead * in_its_response_mps * std::max(1.0, kMuchAcrossMps / std::max(1e-3, across_mps));

@@ -10,22 +10,22 @@
 
 namespace window_ingress::navigation {
 
-/// SEARCH (P14): turns in its place, first towards where the window was last seen, and looks from a greater
-/// height after each turn without success. It goes nowhere else. Once something is seen it stops turning away
-/// from it until enough images have shown it.
+/// SEARCH (P14): turns in place, first towards the last known place of the window. After each unsuccessful
+/// turn the vehicle climbs. It moves nowhere else. Once a window is seen, the vehicle turns towards it until
+/// enough images have shown it.
 class Search : public Behaviour {
  public:
-  static constexpr double kMaxTurnPerImage = 0.25;  ///< part of the field of view, from image to image
+  static constexpr double kMaxTurnPerImage = 0.25;  ///< fraction of the field of view between two images
 
-  /// \param may_climb false after a mission has been near the window: what is above is then not known to be
-  /// free
+  /// \param may_climb false once a mission has been near the window: the space above may not be free
   Search(const NavigatorParams& params, bool may_climb) : Behaviour(params), may_climb_(may_climb) {}
 
   Decision step(const Situation& situation, MissionState& memory) override;
 
  private:
   Decision lookAt(const Situation& situation, const MissionState& memory);
-  /// So that an image is neither smeared nor the window passed over between two (trap: faster finds less).
+  /// Fastest yaw rate [rad/s] without blur and without skipping a window between two images (trap: faster
+  /// finds less).
   double fastestTurn(double image_period_sec) const;
   double sweep(const VehicleState& vehicle, MissionState& memory);
   void countTurn(double heading_rad, MissionState& memory);
@@ -40,25 +40,25 @@ class Search : public Behaviour {
   int frames_ = 0;
 };
 
-/// Excitation that needs no sign: straight up by a fixed amplitude and back, then straight down and back, in
-/// turn.
+/// Excitation that needs no sign: straight up by a fixed amplitude and back, then down and back, alternately.
 ///
-/// While two planar hypotheses are alive, every sideways step by the pose is a coin flip. A change of height
-/// is not: it is the same for both hypotheses, leads to no wrong side, and it takes the camera off the height
-/// of the window, where both hypotheses are equally upright; seen from above or below, upright borders lean
+/// While both planar hypotheses are alive, a sideways step based on the pose is a coin flip. A change of
+/// height is the same for both hypotheses and cannot lead to the wrong side. It also takes the camera off the
+/// window's height, where both hypotheses are equally upright. Seen from above or below, upright borders lean
 /// differently for the two.
 class HeightProbe {
  public:
   explicit HeightProbe(const NavigatorParams& params) : params_(&params) {}
-  explicit HeightProbe(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  explicit HeightProbe(NavigatorParams&&) = delete;  ///< the parameters must outlive this
 
   void reset() { *this = HeightProbe(*params_); }
   bool isExhausted() const { return count_ >= params_->align.max_probes; }
   int count() const { return count_; }
 
-  /// One that has not begun leaves from this height, and comes back to it; else from where it is asked first.
+  /// Sets the height at which the probe starts and ends, unless it is set. By default the first `climb` sets
+  /// it.
   void beginAt(double height_m);
-  /// Upward velocity of the probe at this height.
+  /// Vertical velocity of the probe at this height, up positive [m/s].
   double climb(double height_m);
 
  private:
@@ -68,31 +68,31 @@ class HeightProbe {
   int count_ = 0;
 };
 
-/// The paper's small steps (P19), as a yardstick: the vehicle moves `step_m`, stops, looks for a while, and
-/// so on; a step leads sideways or forward, never both.
+/// The paper's small steps (P19), as a reference for comparison: the vehicle moves by `step_m`, stops, looks,
+/// and repeats. Each step is along one axis of the window only.
 class StepPacer {
  public:
   explicit StepPacer(const NavigatorParams& params) : params_(&params) {}
-  explicit StepPacer(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  explicit StepPacer(NavigatorParams&&) = delete;  ///< the parameters must outlive this
 
   bool isStepped() const { return params_->scheme == "stepped"; }
-  /// The velocity as wished unless the scheme is stepped; then that of the present step, or none during the
-  /// look. \param R_odom_window the window's axes
+  /// The wished velocity, unless the scheme is stepped: then the velocity of the present step, or zero during
+  /// the pause. \param R_odom_window the window's axes
   Eigen::Vector3d pace(const Eigen::Vector3d& velocity_odom_mps, const Eigen::Matrix3d& R_odom_window,
                        const Situation& situation);
 
  private:
-  /// Of the wish, the part along the step's axis, so slow that the step can end in time.
+  /// The wished velocity's component along the step, slow enough to stop at its end.
   Eigen::Vector3d along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const;
 
   const NavigatorParams* params_;
-  std::optional<Eigen::Vector3d> from_odom_m_;       ///< where the present step began; none: looking
+  std::optional<Eigen::Vector3d> from_odom_m_;       ///< start of the present step; empty during the pause
   Eigen::Vector3d along_ = Eigen::Vector3d::Zero();  ///< the present step's axis, odom
   std::optional<double> standing_since_sec_;
 };
 
-/// ALIGN (P15): yaw keeps the window in view, height follows its centre, and once the normal is trusted the
-/// vehicle moves sideways onto it. It never moves towards the window, and while the normal is not trusted it
+/// ALIGN (P15): yaw keeps the window in view and height follows its centre. Once the normal is trusted, the
+/// vehicle moves sideways onto it. The vehicle never moves towards the window; with an untrusted normal it
 /// only changes height.
 class Align : public Behaviour {
  public:
@@ -112,9 +112,8 @@ class Align : public Behaviour {
   std::optional<double> in_funnel_since_sec_;
 };
 
-/// APPROACH (P16): forward along the normal, still correcting sideways and in height. The forward speed
-/// shrinks to nothing at the wall of the funnel, and so that the vehicle can stop at the commit line as long
-/// as the criterion does not hold.
+/// APPROACH (P16): forward along the normal, with corrections sideways and in height. The forward speed falls
+/// to zero at the funnel's wall. While the criterion does not hold, the vehicle can stop at the commit line.
 class Approach : public Behaviour {
  public:
   using Behaviour::Behaviour;
@@ -123,7 +122,7 @@ class Approach : public Behaviour {
 
  private:
   double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const;
-  /// Beside the axis, to see whether the opening is open.
+  /// Lateral offset from the axis, to see whether the window is open [m].
   double asideM(const CommitCriterion& criterion, const Situation& situation) const;
   double patienceSec(const TargetEstimate& target) const;
   std::optional<Event> judge(const CommitCriterion& criterion, const RelativeState& relative,
@@ -132,23 +131,24 @@ class Approach : public Behaviour {
   StepPacer pacer_{*params_};
   std::optional<double> outside_since_sec_;
   std::optional<double> waiting_since_sec_;
-  bool looks_ = false;  ///< at the line, to see whether the opening is open
+  bool looks_ = false;  ///< waits at the line to see whether the window is open
 };
 
-/// COMMIT: through the opening on `MissionState::committed`, which is frozen in odom; sightings on the way
-/// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back. Past
-/// the point of no return it follows them: then it is odometry that went elsewhere. Heading along the normal.
-/// Ends standing still behind the window; turns back only while the nose can still be stopped in front of the
-/// plane, once it could not only with twice the way to do so: half stopped, it would drift where it can
-/// neither pass nor turn.
+/// COMMIT: flies through the opening along its normal, by `MissionState::committed`, which is frozen in odom.
+/// Sightings that agree with it refine it. Several in a row that disagree or forbid the approach turn the
+/// vehicle back. Past the point of no return disagreeing sightings replace it, because then odometry is
+/// wrong. COMMIT ends standing still behind the window. The vehicle turns back only while the nose can stop
+/// in front of the plane. After the point of no return this needs twice the stopping distance: a vehicle that
+/// has slowed halfway would drift where it can neither pass nor turn.
 class Commit : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
   Decision step(const Situation& situation, MissionState& memory) override;
 
-  /// True, after odometry was gone, if the vehicle is through already, or if the criterion with the committed
-  /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
+  /// Whether COMMIT may resume after a loss of odometry: the vehicle is already through, or the criterion
+  /// still holds for the committed window with the drift since. A vehicle that can still stop must also see
+  /// the window at its place.
   static bool canResume(const Situation& situation, const MissionState& memory,
                         const NavigatorParams& params);
 
@@ -160,18 +160,18 @@ class Commit : public Behaviour {
   double speedToExit(double room_m, const RelativeState& relative) const;
 
   std::optional<Eigen::Vector3d>
-      entry_odom_m_;             ///< the window at the commit: no series of small updates leads far from it
-  int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere
+      entry_odom_m_;             ///< window's place at the commit: limits the sum of small updates
+  int disagreements_ = 0;        ///< new sightings in a row that disagree with the place
   double disagreement_m_ = 0.0;  ///< of the last sighting
-  int forbidden_ = 0;            ///< new sightings in a row that say not to fly there
+  int forbidden_ = 0;            ///< new sightings in a row that forbid the approach
   std::string why_forbidden_;
-  bool is_bound_ = false;    ///< was past the point of no return
-  bool is_through_ = false;  ///< has reached the exit distance once
+  bool is_bound_ = false;    ///< past the point of no return
+  bool is_through_ = false;  ///< has reached the exit distance
 };
 
-/// BACK_OFF (P17): away from the window along its last trusted normal in odom, to where it can be seen again.
-/// Within the reveal neither turning nor sideways; clear of it, back onto the normal, and yaw points the
-/// camera at where the window must be.
+/// BACK_OFF (P17): flies away from the window along its last trusted normal in odom, until the window can be
+/// seen again. Within the reveal the vehicle neither turns nor moves sideways. Clear of the reveal it returns
+/// to the normal and turns the camera towards the window.
 class BackOff : public Behaviour {
  public:
   using Behaviour::Behaviour;
@@ -186,12 +186,12 @@ class BackOff : public Behaviour {
   int frames_ = 0;
 };
 
-/// HOLD: zero velocity. Where images alone are missing, back from the window after a while. Once the inputs
-/// are back for a while, goes on from where it can: the commit, the window, its memory, or a new search.
-/// Gives up when they do not come back.
+/// HOLD: zero velocity. If only images are missing, the vehicle backs off after a while. Once the inputs have
+/// been good for a while, the mission continues with the commit, the window, its remembered place or a new
+/// search. HOLD gives up after a timeout.
 class Hold : public Behaviour {
  public:
-  /// \param from the state that was left for the hold
+  /// \param from the state before HOLD
   Hold(const NavigatorParams& params, State from) : Behaviour(params), from_(from) {}
 
   Decision step(const Situation& situation, MissionState& memory) override;
@@ -206,7 +206,7 @@ class Hold : public Behaviour {
   double good_sec_ = 0.0;
 };
 
-/// The behaviour of a state that begins; null for one that has none. \param from was left for it
+/// The behaviour of a new state; null if the state has none. \param from the state before
 std::unique_ptr<Behaviour> behaviourOf(State state, State from, double now_sec, bool may_climb,
                                        const NavigatorParams& params);
 

@@ -9,14 +9,14 @@
 namespace window_ingress::navigation {
 namespace {
 
-constexpr int kInARow = 3;                // sightings that say the same are believed
-constexpr double kMaxUpdateJumpM = 0.15;  // updates on the way that differ more are ignored
+constexpr int kInARow = 3;                // consecutive sightings that agree are believed
+constexpr double kMaxUpdateJumpM = 0.15;  // updates further from the place at the commit are ignored
 constexpr double kStoppedMps = 0.15;
-constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
-constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
+constexpr double kReserve = 2.0;     // stopping distances needed to turn back after the point of no return
+constexpr double kLeftOfExit = 0.4;  // of the exit distance: standing this near to its end is enough
 
-/// The predicted miss, or where the vehicle settles without chance, exceeds the clearance by half of the
-/// margin that was kept: less is no reason to turn back.
+/// The predicted miss, or the systematic offset at the plane, exceeds the clearance by half of the vehicle's
+/// margin. A smaller excess is no reason to turn back.
 bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
   const double given_m = params.vehicle.margin_m / 2.0;
   return std::max(criterion.miss_lateral_m, criterion.settled_lateral_m) >
@@ -25,8 +25,8 @@ bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
              criterion.clearance_vertical_m + given_m;
 }
 
-/// The nose can still be stopped before it is in the opening, from the speed that it has, and takes up of
-/// what it was told until it answers, in the part of the way before it that `reserve` leaves.
+/// The nose can stop before the opening within 1 / `reserve` of the distance left. Assumes the speed that the
+/// vehicle has, plus what it gains from the last command within its response time.
 bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
              const NavigatorParams& params, double reserve = 1.0) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
@@ -37,12 +37,12 @@ bool canStop(const RelativeState& relative, const TargetEstimate& target, const 
   return relative.distance() - params.vehicle.half_length_m > reserve * stop_m;
 }
 
-/// Of the velocity that wind adds, what leads along the window's normal [m/s].
+/// The wind's component along the window's normal [m/s].
 double windAlong(const TargetEstimate& target, const MissionState& memory) {
   return uprightRotation(target).col(0).dot(memory.wind_odom_mps);
 }
 
-/// The window is seen, and where it was committed. Odometry that was gone may have come back elsewhere.
+/// The window is seen at its committed place. After a loss, odometry may have come back elsewhere.
 bool seesCommitted(const Situation& situation, const TargetEstimate& committed) {
   if (!situation.target || !situation.target->sign_trusted) return false;
   const Eigen::Vector3d moved =
@@ -123,7 +123,7 @@ void Commit::heedForbidden(const TargetEstimate& target) {
   if (!why.empty()) why_forbidden_ = why;
 }
 
-// Even, whatever the offset: what a vehicle needs to change its speed it does not have to steer.
+// Constant speed regardless of the offset: acceleration spent forward would be missing for steering.
 double Commit::forwardSpeed(const RelativeState& relative) {
   const double room_m = params_->commit.exit_distance_m + relative.distance();
   if (room_m < 0.1) is_through_ = true;
@@ -131,7 +131,7 @@ double Commit::forwardSpeed(const RelativeState& relative) {
   return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps);
 }
 
-// Also back to it, if the vehicle has overshot it or was blown out again.
+// Also flies back to the exit point after an overshoot or after being blown out.
 double Commit::speedToExit(double room_m, const RelativeState& relative) const {
   const double coasted_m = relative.velocity_window_mps.x() * params_->vehicle.response_sec;
   const double wish_mps = params_->align.lateral_gain_hz * (room_m - coasted_m);

@@ -2,12 +2,12 @@
 
 namespace window_ingress::navigation {
 namespace {
-constexpr double kGoodInputSec = 0.2;  // inputs good, before going on
+constexpr double kGoodInputSec = 0.2;  // inputs must be good for this time before the mission continues
 }
 
 Decision Hold::step(const Situation& situation, MissionState& memory) {
   held_sec_ += situation.dt_sec;
-  const bool needs_image = from_ != State::kCommit;  // which flies on without
+  const bool needs_image = from_ != State::kCommit;  // COMMIT flies on without images
   const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&
                        (situation.image_fault.empty() || !needs_image);
   good_sec_ = is_good ? good_sec_ + situation.dt_sec : 0.0;
@@ -29,12 +29,12 @@ Decision Hold::step(const Situation& situation, MissionState& memory) {
   return decision;
 }
 
-// Without images nothing leads on, but odometry and the normal still lead away from the wall: at once where
-// wind could carry the vehicle into it meanwhile.
+// Without images the mission cannot continue, but odometry and the normal still lead away from the wall. The
+// vehicle retreats at once where wind could carry it into the wall meanwhile.
 bool Hold::mayRetreat(const Situation& situation, const MissionState& memory) const {
   if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
   const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
-  if (distance_m < -params_->vehicle.half_length_m) return false;  // no way leads back through the opening
+  if (distance_m < -params_->vehicle.half_length_m) return false;  // no way back through the opening
   const bool is_near = from_ != State::kCommit && distance_m < params_->limits.wall_distance_m;
   return is_near || held_sec_ > params_->hold.patience_sec;
 }
@@ -45,7 +45,7 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionState&
     if (Commit::canResume(situation, memory, *params_)) return Event::kResumed;
     reason = "the commit cannot be resumed";
     if (memory.trusted) return Event::kWindowLost;
-    if (!memory.was_in_front) return Event::kGiveUp;  // where the opening is now is not known
+    if (!memory.was_in_front) return Event::kGiveUp;  // the opening's place is unknown
     return situation.target ? std::optional(Event::kReacquired) : std::nullopt;
   }
   if (situation.target) {

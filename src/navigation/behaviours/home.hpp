@@ -7,11 +7,10 @@
 
 namespace window_ingress::navigation {
 
-/// Where the mission began, for the fence. The odometry may jump, home does not: it stays where it was as
-/// seen from the vehicle.
+/// Where the mission began, for the fence. When odometry jumps, home keeps its place relative to the vehicle.
 class Home {
  public:
-  /// Keeps `MissionState::home_odom_m` right; the first call sets it.
+  /// Updates `MissionState::home_odom_m`; the first call sets it.
   void follow(const VehicleState& vehicle, MissionState& memory) {
     const Eigen::Vector3d position = vehicle.T_odom_base.translation();
     if (!memory.home_odom_m) from_home_m_ = Eigen::Vector3d::Zero();
@@ -21,10 +20,10 @@ class Home {
   }
 
   void odometryJumped() { position_odom_m_.reset(); }
-  double awayM() const { return from_home_m_.head<2>().norm(); }  ///< of the vehicle, along the ground
+  double awayM() const { return from_home_m_.head<2>().norm(); }  ///< horizontal, of the vehicle from home
 
  private:
-  std::optional<Eigen::Vector3d> position_odom_m_;  ///< of the call before, in the present odometry frame
+  std::optional<Eigen::Vector3d> position_odom_m_;  ///< at the previous call, in the present odometry frame
   Eigen::Vector3d from_home_m_ = Eigen::Vector3d::Zero();
 };
 

@@ -8,14 +8,13 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kThereM = 0.01;
-constexpr double kStandingMps = 0.2;  // its place is where it first is slower than this
+constexpr double kStandingMps = 0.2;  // a vehicle below this speed has found its place
 
 Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
   return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
 }
 
-/// No faster than this, neither level nor upward and downward: a way that is mostly one takes nothing from
-/// the other.
+/// Limits horizontal and vertical speed separately, so that one takes nothing from the other.
 Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_mps) {
   const double level_mps = velocity.head<2>().norm();
   const double share = level_mps > limit_mps ? limit_mps / level_mps : 1.0;
@@ -28,7 +27,7 @@ bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& memor
   return normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
 }
 
-/// Directions in which windows lie in front; along the normal where that is known.
+/// Directions towards the windows in front; along the normal where it is known.
 std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, const MissionState& memory) {
   std::vector<Eigen::Vector3d> directions;
   if (isBehindWindow(position_m, memory)) return directions;
@@ -42,7 +41,7 @@ std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, c
   return directions;
 }
 
-/// Of this way what leads towards no window; nothing where windows on both sides leave none.
+/// The part of this way that leads towards no window; zero if windows on both sides leave none.
 Eigen::Vector3d towardsNoWindow(Eigen::Vector3d way, const std::vector<Eigen::Vector3d>& windows) {
   constexpr double kTowardsM = 1e-9;
   for (const Eigen::Vector3d& forward : windows) way -= std::max(0.0, way.dot(forward)) * forward;
@@ -50,7 +49,7 @@ Eigen::Vector3d towardsNoWindow(Eigen::Vector3d way, const std::vector<Eigen::Ve
   return std::any_of(windows.begin(), windows.end(), leadsThere) ? Eigen::Vector3d::Zero().eval() : way;
 }
 
-/// Neither wind nor its own errors take a vehicle so far that keeps its place.
+/// The vehicle is further from its place than wind and its own errors explain.
 bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionState& memory) {
   return memory.place_odom_m &&
          (*memory.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;

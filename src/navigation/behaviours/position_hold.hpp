@@ -1,23 +1,22 @@
-/// Staying where the vehicle is: zero velocity alone drifts away in wind.
+/// Position hold: with zero velocity alone, a vehicle drifts in wind.
 #pragma once
 
 #include "navigation/behaviours/behaviour.hpp"
 
 namespace window_ingress::navigation {
 
-constexpr double kSettleSec =
-    0.8;  ///< a vehicle that does not stand keeps the place where it is after this time
+constexpr double kSettleSec = 0.8;  ///< a vehicle that still moves keeps its present place after this time
 
-/// The place is where the vehicle first stands, or where it is when it still does not after a while; it is
-/// forgotten as soon as nobody wants it kept, and with the odometry it was known in. By odometry alone: no
-/// estimate of any window takes part.
+/// Remembers the place to keep: where the vehicle first stands, or where it is after `kSettleSec` if it does
+/// not. Forgets it once `is_kept` is false, when odometry jumps, or beyond `hold/leash_m`. Uses odometry
+/// only, no window estimate.
 void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params, MissionState& memory);
 
-/// Velocity back to the place, in odom axes; zero without a place.
+/// Velocity back to the kept place, in odom axes; zero without one.
 Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionState& memory,
                                 const NavigatorParams& params);
 
-/// Of this velocity what leads back to the place and, while in front of it, not towards the window.
+/// The part of this velocity that leads back to the kept place and, in front of the window, not towards it.
 Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
                             const MissionState& memory, const HoldParams& params);
 

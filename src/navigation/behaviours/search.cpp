@@ -8,7 +8,8 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr int kMaxOthers = 8;
-constexpr double kMaxShiftToClimbM = 0.3;  // where the place is less certain, there may be eaves above it
+constexpr double kMaxShiftToClimbM =
+    0.3;  // beyond this correction the place is uncertain: eaves may be above
 }  // namespace
 
 Decision Search::step(const Situation& situation, MissionState& memory) {

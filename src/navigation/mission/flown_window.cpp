@@ -7,9 +7,9 @@
 namespace window_ingress::navigation {
 namespace {
 
-constexpr double kLostM = 1.0;        // set right in odometry: where the vehicle is by then nobody knows
-constexpr double kRoomToTurnM = 0.3;  // beside a body that turns
-constexpr double kEavesM = 2.5;       // from the wall
+constexpr double kLostM = 1.0;        // with a larger correction of odometry the vehicle's place is unknown
+constexpr double kRoomToTurnM = 0.3;  // beside a turning body
+constexpr double kEavesM = 2.5;       // distance from the wall
 
 }  // namespace
 

@@ -8,23 +8,23 @@
 
 namespace window_ingress::navigation {
 
-/// The window that the last mission flew at, beyond that mission: after a take-over, an abort or PASSED the
-/// vehicle may still be in its opening, or under what is above it.
+/// The window of the last mission, remembered beyond that mission: after a take-over, an abort or PASSED the
+/// vehicle may still be in its opening or under eaves.
 class FlownWindow {
  public:
-  /// \param window flown at in this step, if one is \param odometry that the situation is from
+  /// \param window flown at in this step, if any \param odometry source of the situation
   void follow(const std::optional<TargetEstimate>& window, const Situation& situation,
               const ContinuousOdometry& odometry);
-  /// From the frame without jumps into odom, before that frame begins anew. \param now_sec as of then
+  /// Converts the window to odom, before the jump-free frame restarts. \param now_sec time of the conversion
   void bringToOdom(const ContinuousOdometry& odometry, double now_sec);
 
-  /// Of a vehicle in the opening, before its plane or behind it [m]; nothing where it is clear of it.
+  /// Distance of the vehicle from the opening's plane [m], either side; empty if the vehicle is clear of it.
   std::optional<double> distanceInOpening(const VehicleState& vehicle, const VehicleParams& body) const;
-  /// Near the wall, or behind it: what is above may be eaves or a ceiling.
+  /// Near the wall or behind it: eaves or a ceiling may be above.
   bool mayHaveRoofAbove(const VehicleState& vehicle) const;
 
  private:
-  std::optional<TargetEstimate> window_;  ///< as long as it is known where the vehicle is beside it
+  std::optional<TargetEstimate> window_;  ///< empty once the vehicle's place beside it is unknown
 };
 
 }  // namespace window_ingress::navigation

@@ -5,11 +5,11 @@
 
 namespace window_ingress::navigation {
 
-/// Time of the mission and of its present state. A clock that jumps makes the inputs stale, but uses up no
-/// time of the mission and gives none back.
+/// Time of the mission and of its present state. A clock that jumps makes the inputs stale, but neither uses
+/// up nor returns mission time.
 class MissionClock {
  public:
-  /// Not finite: ignored.
+  /// Ignores a time that is not finite.
   void pass(double to_sec) {
     constexpr double kLongestStepSec = 1.0;
     if (!std::isfinite(to_sec)) return;

@@ -9,7 +9,7 @@
 
 namespace window_ingress::navigation {
 namespace {
-constexpr double kMaxShiftM = 0.8;  // a window this far from the one flown at is another one
+constexpr double kMaxShiftM = 0.8;  // a window further than this from the one flown at is another one
 
 double timeoutOf(State state, const TimeoutParams& timeouts) {
   if (state == State::kSearch) return timeouts.search_sec;

@@ -1,4 +1,4 @@
-/// What the mission as a whole demands, apart from what any single state does.
+/// Rules of the whole mission, independent of the state.
 #pragma once
 
 #include <string>
@@ -13,30 +13,30 @@
 
 namespace window_ingress::navigation {
 
-/// The parameters as given. \throws std::invalid_argument that lists every fault
+/// Checks the parameters; `input.max_future_sec` is taken from the vehicle. \throws std::invalid_argument
+/// that lists every fault
 NavigatorParams checked(NavigatorParams params);
 
-/// What speaks against a start, all of it; empty if nothing does. \param flown_at in its opening a search
-/// would turn the vehicle against the border
+/// All reasons against a start; empty if there are none. \param flown_at the last window flown at: in its
+/// opening, the turn of a search would hit the border
 std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, const FlownWindow& flown_at,
                                       const NavigatorParams& params);
 
-/// What has lasted too long, for people: the mission as a whole, or its stay in this state; empty if neither.
-/// How long HOLD lasts is its own matter (`hold/timeout_sec`).
+/// Timeout of the mission or of this state, as text; empty if none. HOLD has its own (`hold/timeout_sec`).
 std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts);
 
-/// What this state needs and does not have; empty if it has all.
+/// The first missing input of this state; empty if none is missing.
 std::string missingInput(State state, const Situation& situation);
 
-/// Why a state other than COMMIT must not fly at this target: seen from behind, or another window than the
-/// one flown at before; empty if nothing speaks against it.
+/// Why a state other than COMMIT must not fly at this target: seen from behind, or not the window flown at
+/// before. Empty if there is no reason.
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
                           const MissionState& memory);
 
-/// Whether the mission looks for the window again after having backed off, or is given up.
+/// Whether the mission may search again after having backed off.
 bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params);
 
-/// For people: the vehicle goes beside what it is told.
+/// Text for the operator: the vehicle's motion is turned against its setpoints.
 std::string goesAstray(double turned_rad);
 
 }  // namespace window_ingress::navigation

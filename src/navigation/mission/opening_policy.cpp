@@ -11,7 +11,7 @@ bool isSeenOpen(const TargetEstimate& target) { return target.openness.openness 
 
 namespace {
 
-/// What has yet to be known before anybody flies in; empty if nothing has.
+/// What must still be known before the vehicle enters; empty if nothing.
 std::string doubtAbout(const TargetEstimate& target, const CommitParams& params) {
   if (!isSeenOpen(target) && params.unverified_opening != "allow")
     return "not seen to be open: " + target.openness.reason;

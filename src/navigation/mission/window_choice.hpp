@@ -1,4 +1,4 @@
-/// Which of the windows known is flown at, and which no longer.
+/// Which known window the mission flies at, and when it leaves one.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace window_ingress::navigation {
 
-/// At the place of a window that was left for good.
+/// The target is at the place of a window that was left for good.
 bool wasLeftForGood(const TargetEstimate& target, const MissionState& memory);
 
-/// The target is another window now than the one flown at: the operator, or the memory of all windows, has
-/// chosen it. COMMIT flies on. \return why the window before is left; empty if it is not
+/// Why the mission leaves the window flown at: the operator or the facade has chosen another target. Empty if
+/// there is no reason, and always in COMMIT.
 std::string whySentElsewhere(const Situation& situation, State state, const MissionState& memory);
 
-/// Where the mission would end because a window was tried in vain, and `search/next_window` allows another
-/// one: gives up the window instead, and searches on.
+/// If all tries at a window have failed and `search/next_window` is set: gives up this window and searches
+/// for the next instead of ending the mission.
 void turnToNextWindow(State state, const NavigatorParams& params, MissionState& memory, Decision& decision);
 
 }  // namespace window_ingress::navigation

@@ -44,7 +44,7 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
   VehicleState smooth = inSmooth(odometry);
   way_m_ += dt_sec * 0.5 * (before_mps + smooth.velocity_odom_mps);
   if (has_turned && comes_back)
-    turn_.reset();  // it was wrong alone
+    turn_.reset();  // only the attitude was wrong
   else if (has_turned)
     turn_ = Turn{turned_rad + (turn_ ? turn_->turn_rad : 0.0),
                  {odometry.stamp_sec, odometry.T_odom_base.translation(), way_m_}};
@@ -92,7 +92,7 @@ VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
 void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
   const Eigen::Vector3d position_m = smooth.T_odom_base.translation();
   second_.push_back(
-      {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
+      {smooth.stamp_sec, position_m, way_m_});  // the only sample after a gap, whose way is unknown
   while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
   const Sample& before = second_[std::max<std::size_t>(second_.size(), 2) - 2];
   for (const Sample& first : {second_.front(), before}) {

@@ -1,4 +1,4 @@
-// What the velocity of an odometry is off by.
+// Bias of an odometry's velocity.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,15 +11,15 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
-constexpr double kMaxErrorMps = 0.5;  // of any velocity, before its bias is known
+constexpr double kMaxErrorMps = 0.5;  // limit of any velocity error while the bias is unknown
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
 constexpr std::size_t kSteadyPieces = 8;              // longer than a slide lasts
-constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
-constexpr double kMoreEven = 0.8;                     // of the spread in the other axes, squared
-constexpr double kSigmas = 2.0;                       // of how a position walks, before a bias is known
-constexpr double kOfNewest = 0.4;                     // in the average, a share: one sample may be off
-constexpr double kMostSigmas = 7.0;                   // of it: what is more is no chance
-constexpr double kSigmaOfMedian = 0.849;  // each axis, of lengths in the plane, normally distributed
+constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias: limit for alike pieces
+constexpr double kMoreEven = 0.8;                     // factor on the squared spread in the other axes
+constexpr double kSigmas = 2.0;           // of the position's random walk, while the bias is unknown
+constexpr double kOfNewest = 0.4;         // weight of the newest sample in the average: one sample may be off
+constexpr double kMostSigmas = 7.0;       // of the difference within a second; more is not chance
+constexpr double kSigmaOfMedian = 0.849;  // per axis, of the median length of plane normal vectors
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Eigen::Matrix3d ContinuousOdometry::uprightOf(const VehicleState& vehicle) {
   return geometry::yawRotation(geometry::yawOf(vehicle.T_odom_base.linear()));
 }
 
-// Of an estimator's velocity that is always off by the same.
+// Learns a steady error of the velocity.
 void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
   differences_.push_back({smooth.stamp_sec, unshifted_m, way_m_});
@@ -78,7 +78,7 @@ void ContinuousOdometry::judgePieces() {
       kSigmaOfMedian * std::min(inSecond(&Difference::base_mps), inSecond(&Difference::smooth_mps));
 }
 
-// A bias, in the end, is what half of the pieces are like, or so many that no slide lasts as long.
+// The bias is known once all pieces are there (median), or once more are alike than any slide lasts.
 void ContinuousOdometry::judgeBias() {
   const Eigen::Vector3d usual_mps = usual_.*axes_;
   const double alike_mps = std::max(kAlikeMps, kAlikeShare * usual_mps.head<2>().norm());
@@ -93,14 +93,14 @@ void ContinuousOdometry::judgeBias() {
   if (is_bias_known_ && is_erring_) carried_m_ = carried_m;
 }
 
-// Axes of `smooth`; nothing as long as it may be a slide.
+// In axes of `smooth`; zero while the difference may be a slide.
 Eigen::Vector3d ContinuousOdometry::usualMps(const Eigen::Matrix3d& R_smooth_base) const {
   if (!isBiasKnown()) return Eigen::Vector3d::Zero();
   return axes_ == &Difference::smooth_mps ? usual_.smooth_mps
                                           : Eigen::Vector3d(R_smooth_base * usual_.base_mps);
 }
 
-// A velocity that errs errs otherwise within seconds.
+// The last second counts, because a velocity error changes within seconds.
 Eigen::Vector3d ContinuousOdometry::steadyMps(const Eigen::Matrix3d& R_smooth_base) const {
   if (isBiasKnown() && !differences_.empty()) {
     const Sample &first = differences_.front(), &last = differences_.back();
@@ -137,7 +137,7 @@ double ContinuousOdometry::byChanceM(double passed_sec) const {
   const double by_chance_m = kMostSigmas * in_second_m_ * std::sqrt(passed_sec / kSecond);
   if (isBiasKnown()) return by_chance_m;
   return std::min(by_chance_m,
-                  kMaxErrorMps * passed_sec);  // a slide is among the first pieces, and most of them
+                  kMaxErrorMps * passed_sec);  // the first pieces may mostly be a slide
 }
 
 double ContinuousOdometry::unexplainedMps() const {

@@ -1,4 +1,4 @@
-// A heading that jumps, and whether the axes of the positions have turned along.
+// Heading jumps, and whether the axes of the positions have turned as well.
 #include <algorithm>
 #include <cmath>
 
@@ -8,26 +8,26 @@
 namespace window_ingress::navigation {
 namespace {
 
-// Between the two ways flown, to tell whether the axes have turned. In sigmas of chance in one piece: their
-// misfits differ by what lies between them, give or take twice its root times that sigma, so six are three.
+// Distance between both hypothetical ways that decides whether the axes have turned. Their misfits differ by
+// distance^2 +- 2 distance * sigma (sigma: chance in one piece), so kTellingSigmas = 6 means three sigmas.
 constexpr double kTellingM = 0.1, kTellingSigmas = 6.0;
 
 }  // namespace
 
-// By a jump that may be smaller than the one that went, by noise and by how the vehicle turns.
+// The jump back may be smaller than the jump: noise and the vehicle's own turn change it.
 bool ContinuousOdometry::headingComesBack(double turned_rad) const {
   const double error_rad = headingErrorRad();
   return std::abs(error_rad) > kTurnJumpRad &&
          std::abs(geometry::wrapAngle(error_rad + turned_rad)) < 0.5 * std::abs(error_rad);
 }
 
-// In pieces of a second: over a long one velocity and position drift apart by themselves.
+// Compares pieces of one second, because velocity and position drift apart over longer ones.
 void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   if (!turn_) return;
   const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
   const double passed_sec = odometry.stamp_sec - turn_->piece.stamp_sec;
   const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m + passed_sec * usualMps(uprightOf(*smooth_)))
-                                    .head<2>();  // upward nothing turns
+                                    .head<2>();  // a yaw turn does not change the vertical axis
   const Eigen::Vector2d moved_m =
       (T_smooth_axes_.linear() * (position_m - turn_->piece.position_m)).head<2>();
   const Eigen::Rotation2Dd turn_back(-turn_->turn_rad);

@@ -7,14 +7,14 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
-// At most: in gusts a vehicle that steers against them seems to answer slowly, and would not feel them.
+// Limit: a vehicle that steers against gusts seems to answer slowly, and long smoothing would hide them.
 constexpr double kMaxSmoothingSec = 0.3;
 constexpr double kUsualGustMps = 0.06;
-constexpr double kStoodSec = 1.0;    // as if it had stood without wind for so long before
+constexpr double kStoodSec = 1.0;    // prior: this long at rest without wind
 constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
-constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that last a second turn, squared
+constexpr double kGustsM2ps = 0.9;   // squared: three times the turn by gusts of 0.3 m/s that last a second
 constexpr double kMinShareGone = 0.6;
-constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
+constexpr double kModelError = 0.15;  // fraction of the velocity change still commanded
 
 Eigen::Vector3d verticalOf(const Eigen::Vector3d& velocity_mps) { return {0.0, 0.0, velocity_mps.z()}; }
 
@@ -30,7 +30,7 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& velocity_mps, double by_mps) {
 
 }  // namespace
 
-// What the setpoints alone would have given.
+// Velocity from the setpoints alone.
 Eigen::Vector3d DisturbanceObserver::modelVelocity() const {
   const Eigen::Vector3d& all_mps = response_.velocity();
   return {all_mps.x(), all_mps.y(), climbResponse().velocity().z()};
@@ -57,7 +57,7 @@ void DisturbanceObserver::Directions::fade(double keep) {
   said_m *= keep, done_m *= keep, both_m2ps *= keep;
 }
 
-// By regression of what was done on what was said. A vehicle that only stands against the wind goes in no
+// Regression of the measured motion on the modelled one. A vehicle that only stands against wind shows no
 // direction.
 double DisturbanceObserver::turnedRad() const {
   const double sec = directions_.sec + kStoodSec;
@@ -80,7 +80,7 @@ void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps,
   directions_.both_m2ps += dt_sec * std::conj(said) * done;
 }
 
-// Until it has been watched for a while, what is usual counts beside it.
+// Until enough was measured, the usual gusts count as a prior.
 Eigen::Matrix3d DisturbanceObserver::gusts() const {
   const Eigen::Matrix3d usual_m2ps = kUsualSec * kUsualGustMps * kUsualGustMps * Eigen::Matrix3d::Identity();
   return (gusts_m2ps_ + usual_m2ps) / watchedSec();

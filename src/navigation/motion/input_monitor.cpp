@@ -12,7 +12,7 @@
 namespace window_ingress::navigation {
 namespace {
 
-/// Empty if the stamp is young enough and not from the future.
+/// Empty if the stamp is recent and not in the future.
 std::string ageFault(const char* what, double stamp_sec, double now_sec, double max_age_sec,
                      double max_future_sec) {
   const double age_sec = now_sec - stamp_sec;
@@ -29,11 +29,11 @@ double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 constexpr double kFarAwayM = 1e5;
 constexpr double kFasterThanAnyMps = 20.0;
 constexpr double kMoving = 0.1;       // [m/s], [rad/s]
-constexpr double kRepeatsSec = 0.25;  // of one that says to move
-constexpr double kDeadTimeSec = 0.5;  // after which no vehicle that is told to move stands as before
+constexpr double kRepeatsSec = 0.25;  // limit for a repeated sample that claims motion
+constexpr double kDeadTimeSec = 0.5;  // a vehicle commanded to move must have moved after this time
 constexpr double kTrustedYawJumpRad = 0.35;
-constexpr double kJumpPersistSec = 0.5;  // a window that stays at its new place this long is believed
-constexpr double kMaxTiltRad = 0.26;     // a window leaning more is no window
+constexpr double kJumpPersistSec = 0.5;  // a window is believed at its new place after this time
+constexpr double kMaxTiltRad = 0.26;     // a window that leans more is rejected
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
   constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
@@ -44,7 +44,7 @@ bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
     for (int column = 0; column < 4; ++column)
       block(row, column) = covariance(kUpright[row], kUpright[column]);
   const bool is_symmetric = block.isApprox(block.transpose(), kAlike);
-  return is_symmetric && block.llt().info() == Eigen::Success;  // which reads one half only
+  return is_symmetric && block.llt().info() == Eigen::Success;  // llt reads one half only
 }
 
 bool hasUsableMotion(const TargetEstimate& target) {
@@ -90,7 +90,7 @@ std::string faultOf(const TargetEstimate& target) {
 
 void InputMonitor::reset() { *this = InputMonitor(params_); }
 
-// A window is where it is in odom as of its image.
+// The window's pose in odom belongs to the time of its image.
 TargetEstimate InputMonitor::inSmooth(TargetEstimate target) const {
   const Eigen::Isometry3d T_smooth_odom = odometry_.T_smooth_odom(target.stamp_sec);
   const Eigen::Matrix3d& R = T_smooth_odom.linear();
@@ -174,7 +174,7 @@ void InputMonitor::told(const Setpoint& setpoint, double now_sec) {
   if (moves && !told_to_move_sec_ && std::isfinite(now_sec)) told_to_move_sec_ = now_sec;
 }
 
-// The noise of a sensor that works never repeats itself, and nothing moves without changing its place.
+// A working sensor's noise never repeats itself, and a moving vehicle changes its place.
 bool InputMonitor::isStuck(const VehicleState& vehicle) {
   const bool repeats = vehicle_ && vehicle.T_odom_base.matrix() == vehicle_->T_odom_base.matrix() &&
                        vehicle.velocity_odom_mps == vehicle_->velocity_odom_mps;

@@ -29,7 +29,7 @@ double sigmaAhead(double sigma_m, const estimation::TargetMotion& motion, double
 }
 
 double reachM(const estimation::TargetMotion& motion) {
-  constexpr double kSigmas = 2.0;  // there and back
+  constexpr double kSigmas = 2.0;  // from one side to the other
   return motion.model.stands() ? 0.0 : kSigmas * motion.model.speed_mps * motion.model.time_sec;
 }
 

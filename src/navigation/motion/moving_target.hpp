@@ -4,15 +4,15 @@
 
 namespace window_ingress::navigation {
 
-/// Where the window will be, and how well that is known then: its place goes on with its velocity, which is
-/// forgotten, and its covariance grows, errors of place and velocity taken to be of one sign. One that stands
-/// still is returned as it is.
+/// Predicts a moving window: its place continues with its decaying velocity, and its covariance grows, with
+/// errors of place and velocity assumed to have the same sign. A window that stands still is returned
+/// unchanged.
 TargetEstimate ahead(const TargetEstimate& target, double at_sec);
 
-/// Standard deviation of a place along one axis that is known to `sigma_m` now [m].
+/// Standard deviation [m] after this time, along one axis, of a place known to `sigma_m` now.
 double sigmaAhead(double sigma_m, const estimation::TargetMotion& motion, double elapsed_sec);
 
-/// How far the window may be from where it was seen before, for that it moves [m].
+/// How far a moving window may be from where it was seen before [m].
 double reachM(const estimation::TargetMotion& motion);
 
 }  // namespace window_ingress::navigation

@@ -8,18 +8,16 @@
 
 namespace window_ingress::navigation {
 
-/// How far the vehicle has been told to turn and has not turned yet.
+/// Yaw that was commanded but has not been turned yet.
 ///
-/// An autopilot answers a yaw rate late, and goes on turning when it is told to stop: it turns after the
-/// heading that the rates add up to. Who steers by the heading measured now tells it to turn twice, and
-/// swings. Less what is still to come, the error is that of the heading that is asked for already, whatever
-/// the delay.
+/// An autopilot answers a yaw rate late and keeps turning when told to stop, because it follows the integral
+/// of the commanded rates. A controller that uses only the measured heading commands the turn twice and
+/// oscillates. Subtracting the pending yaw gives the error of the commanded heading, whatever the delay.
 ///
-/// What has not come after a while does not come any more: rates are not followed exactly, and wind turns,
-/// too.
+/// Pending yaw decays with time: rates are not followed exactly, and wind turns the vehicle as well.
 class PendingYaw {
  public:
-  /// \param told_radps the yaw rate in force since the last step
+  /// \param told_radps the yaw rate commanded since the last step
   void update(double heading_rad, double told_radps, double dt_sec) {
     if (!std::isfinite(heading_rad) || !std::isfinite(told_radps) || !(dt_sec >= 0.0)) return;
     if (last_heading_rad_) {
@@ -30,14 +28,14 @@ class PendingYaw {
     last_heading_rad_ = heading_rad;
   }
 
-  /// The heading begins anew with the next one.
+  /// Restarts with the next heading.
   void reset() { *this = PendingYaw(); }
-  /// Positive counter-clockwise [rad].
+  /// Pending yaw, positive counter-clockwise [rad].
   double rad() const { return to_come_rad_; }
 
  private:
   static constexpr double kMemorySec = 2.0;
-  static constexpr double kMaxRad = 0.5;  // a second at the usual limit
+  static constexpr double kMaxRad = 0.5;  // one second at the usual limit
 
   std::optional<double> last_heading_rad_;
   double to_come_rad_ = 0.0;

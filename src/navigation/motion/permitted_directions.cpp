@@ -15,7 +15,7 @@ Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEsti
   return velocity - std::max(0.0, velocity.dot(normal)) * normal;
 }
 
-/// Upward and downward as wished, sideways only back to the place that is kept.
+/// Any vertical velocity; horizontally only back to the kept place.
 Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situation& situation,
                                    const MissionState& memory, const NavigatorParams& params) {
   Eigen::Vector3d permitted =
@@ -24,7 +24,7 @@ Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situat
   return permitted;
 }
 
-/// Away from the wall; and in front of the opening sideways and upward to its axis, which leads away from its
+/// Away from the wall. In front of the opening also sideways and vertically towards its axis, away from the
 /// frame.
 Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleState& vehicle,
                               const TargetEstimate& target) {
@@ -39,7 +39,7 @@ Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleStat
   return R_odom_window * kept;
 }
 
-/// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
+/// Permitted part of a velocity without forward component: near the wall and outside the funnel only away.
 Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
                              const CommitCriterion& criterion, const NavigatorParams& params) {
   const auto& target = *situation.target;
@@ -101,7 +101,7 @@ double withinHeights(double climb_mps, double height_m, const NavigatorParams& p
   return std::clamp(climb_mps, -down, up);
 }
 
-/// The velocity less what of its way outward could not be stopped at the fence.
+/// Limits the outward speed so that the vehicle can stop at the fence.
 Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector3d& position_m,
                             const MissionState& memory, const NavigatorParams& params) {
   if (!memory.home_odom_m) return velocity;

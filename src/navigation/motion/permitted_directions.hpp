@@ -4,20 +4,20 @@
 
 namespace window_ingress::navigation {
 
-/// What of this velocity the state may command in this situation; the rest is cut away. It knows nothing of
-/// guidance: whatever a behaviour wishes by mistake, this holds.
+/// The part of this velocity that the state may command in this situation. Independent of guidance: a
+/// mistaken velocity of a behaviour is cut here.
 ///
 /// - no odometry, or a state that does not move: nothing
-/// - SEARCH: upward and downward, and back to the place that is kept
-/// - ALIGN, APPROACH: normal not trusted: as SEARCH; outside the funnel: nothing towards the window, and near
-///   the wall only away from it; behind the window: as SEARCH
-/// - APPROACH: towards the window only with a fresh, trusted estimate that does not forbid it, and within the
-///   funnel
-/// - COMMIT: only with a committed window
-/// - BACK_OFF: only with a trusted normal in memory, nothing towards the window, within the reveal only away
-/// - HOLD, PASSED: back to the place that is kept
-/// - nowhere beyond the height limits and the fence, with room to stop
-/// Back to a place means: never towards a window in front.
+/// - SEARCH: vertical, and back to the kept place
+/// - ALIGN, APPROACH: with an untrusted normal or behind the window as SEARCH; outside the funnel nothing
+///   towards the window, and near the wall only away from it
+/// - APPROACH: towards the window only within the funnel and with a fresh, trusted estimate that does not
+///   forbid it
+/// - COMMIT: anything, but only with a committed window
+/// - BACK_OFF: only with a trusted normal in memory; nothing towards the window; within the reveal only away
+/// - HOLD, PASSED: back to the kept place
+/// - all states: height limits and fence, with room to stop
+/// - "back to the kept place" never leads towards a window in front
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
                                   const Situation& situation, const MissionState& memory,
                                   const NavigatorParams& params);

@@ -11,25 +11,23 @@
 
 namespace window_ingress::navigation {
 
-/// Of a step that a first order lag has followed after `dt_sec`.
+/// Fraction of a step that a first-order lag has followed after `dt_sec`.
 inline double share(double dt_sec, double time_constant_sec) {
   return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
 }
 
-/// How the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
-/// different time constants and limits of acceleration, all fed with the setpoints that were sent, the one
-/// whose velocity is most like the measured one. Half of them make up for the way by which they are behind
-/// their setpoints, as some autopilots do: what these overshoot by and creep back is no wind. A steady
-/// difference (wind, a biased velocity) counts for nothing: each model learns its own and is judged by what
-/// remains. Where none explains the motion (turned axes, a vehicle that is held, more gusts than commands),
-/// what was assumed stays.
+/// Measures in flight how the velocity follows the setpoints. Models with a dead time and various time
+/// constants and acceleration limits run on the sent setpoints; the one closest to the measured velocity is
+/// chosen. Half of the models also catch up the way that they lag behind their setpoints, as some autopilots
+/// do: their overshoot and slow return is not wind. Each model learns its own steady difference (wind, a
+/// biased velocity) and is judged by the rest. If no model explains the motion (turned axes, a vehicle that
+/// is held, more gusts than commands), the assumed response stays.
 class ResponseEstimator {
  public:
-  /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
-  /// tell
+  /// \param assumed_sec response until enough velocity changes were commanded to measure it
   explicit ResponseEstimator(double assumed_sec) : assumed_sec_(assumed_sec) { reset(); }
 
-  /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
+  /// \param measured_mps of the vehicle, \param commanded_mps the previous setpoint; both odom axes
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec) {
     if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
     if (!is_started_) {
@@ -61,9 +59,9 @@ class ResponseEstimator {
     choose();
   }
 
-  /// The models start anew from the next measurement; what they showed stays.
+  /// The models restart from the next measurement; the chosen response stays.
   void restart() { is_started_ = false; }
-  /// What was shown is forgotten, too.
+  /// Restarts and forgets the chosen response.
   void reset() {
     models_.clear();
     for (const double pull_hz : kPullsHz)
@@ -72,17 +70,17 @@ class ResponseEstimator {
         for (const double response_sec : kResponsesSec)
           models_.push_back({response_sec, acceleration_mps2, pull_hz});
       }
-    models_.push_back({assumed_sec_, 0.0, 0.0});  // stands, whatever it is told
+    models_.push_back({assumed_sec_, 0.0, 0.0});  // this model never moves
     best_ = 0;
     excitation_ = 0.0;
     is_started_ = is_measured_ = false;
   }
 
-  /// From a setpoint to the velocity following it [s]: 0.12 to 0.9 s, or as assumed.
+  /// Time from a setpoint to the velocity that follows it [s]: 0.12 to 0.9 s, or as assumed.
   double responseSec() const { return models_[best_].response_sec; }
-  /// The vehicle changes its velocity no faster; infinite where no limit has shown.
+  /// Acceleration limit of the vehicle; infinite if none was found.
   double accelerationMps2() const { return models_[best_].acceleration_mps2; }
-  /// A model has explained what the vehicle did.
+  /// Whether a model explains the vehicle's motion.
   bool isMeasured() const { return is_measured_; }
   /// Velocity that the setpoints alone would have given the vehicle [m/s].
   const Eigen::Vector3d& velocity() const { return models_[best_].velocity_mps; }
@@ -94,22 +92,22 @@ class ResponseEstimator {
   static constexpr std::array<double, 2> kPullsHz{0.0, 0.36};  // none, and that of a measured autopilot
   static constexpr double kMinDeadTimeSec = 0.1, kMinLagSec = 0.02;
   static constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
-  static constexpr double kExplains = 0.7;       // of the mean square that a vehicle which stands would leave
-  static constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
+  static constexpr double kExplains = 0.7;       // fraction of the error of a model that never moves
+  static constexpr double kClearlyBetter = 0.9;  // fraction of the error of the present choice
 
   struct Model {
-    double response_sec;  ///< dead time and time constant
+    double response_sec;  ///< dead time plus time constant
     double acceleration_mps2;
-    double pull_hz;  ///< velocity per way that it is behind
+    double pull_hz;  ///< extra velocity per distance behind
     Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
-    Eigen::Vector3d behind_m = Eigen::Vector3d::Zero();  ///< of where the setpoints would have brought it
+    Eigen::Vector3d behind_m = Eigen::Vector3d::Zero();  ///< distance behind the setpoints' way
     Eigen::Vector3d offset_mps =
-        Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
-    double error = 0.0;           ///< mean square of what remains, fading [m^2/s^2]
+        Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from `velocity_mps`
+    double error = 0.0;           ///< mean square of the remaining difference, fading [m^2/s^2]
   };
-  // The setpoint that the vehicle has begun to answer by now.
   static constexpr double kEnoughExcitation = 0.12;  ///< [m^2/s]
 
+  /// The setpoint that the vehicle has begun to answer by now.
   Eigen::Vector3d delayed(const Eigen::Vector3d& commanded_mps, double dt_sec) {
     now_sec_ += dt_sec;
     commands_.push_back({now_sec_, commanded_mps});
@@ -135,7 +133,7 @@ class ResponseEstimator {
     double sec;
     Eigen::Vector3d velocity_mps;
   };
-  std::deque<Command> commands_;  ///< of the dead time
+  std::deque<Command> commands_;  ///< commands within the dead time
   double now_sec_ = 0.0;
   Eigen::Vector3d usual_command_mps_ = Eigen::Vector3d::Zero();
   double excitation_ = 0.0;  ///< how much the setpoints have changed so far [m^2/s]

@@ -8,15 +8,15 @@
 
 namespace window_ingress::navigation {
 
-/// The last gate: whatever is wished, what comes out is finite and within speed, acceleration, jerk, yaw rate
-/// and yaw acceleration. Changes are measured against the setpoint before; `stop` and `cutTo` are the
-/// exceptions, they only take velocity away.
+/// The last gate: whatever the input, the output is finite and within the limits of speed, acceleration,
+/// jerk, yaw rate and yaw acceleration. Changes are measured against the previous setpoint. The exceptions
+/// `stop` and `cutTo` only take velocity away.
 class SetpointLimiter {
  public:
   explicit SetpointLimiter(const LimitParams& limits) : limits_(limits) {}
 
-  /// \param dt_sec since the setpoint before; not finite or negative counts as 0, more than 0.2 s as 0.2 s
-  /// \return zero at once if anything of the wish is not finite
+  /// \param dt_sec since the previous setpoint; not finite or negative counts as 0, more than 0.2 s as 0.2 s
+  /// \return zero at once if any part of the wish is not finite
   Setpoint limit(const Setpoint& wish, double dt_sec) {
     if (!isFinite(wish)) return stop();
     const double dt = std::isfinite(dt_sec) ? std::clamp(dt_sec, 0.0, 0.2) : 0.0;
@@ -30,14 +30,14 @@ class SetpointLimiter {
     return isFinite(last_) ? last_ : stop();
   }
 
-  /// Zero at once, not by a ramp.
+  /// Zero at once, without a ramp.
   Setpoint stop() {
     last_ = Setpoint();
     acceleration_mps2_.setZero();
     return last_;
   }
 
-  /// Replaces the setpoint just given by one that is no faster.
+  /// Replaces the last setpoint by one that is no faster.
   Setpoint cutTo(const Setpoint& setpoint) {
     const bool is_slower = isFinite(setpoint) &&
                            setpoint.velocity_odom_mps.norm() <= last_.velocity_odom_mps.norm() + 1e-12 &&
@@ -62,7 +62,7 @@ class SetpointLimiter {
     return norm > length ? Eigen::Vector3d(vector * (length / norm)) : vector;
   }
 
-  // As fast as it can still end at the wish: a^2 / (2 jerk) = way.
+  // Largest acceleration that can still end at the wish: a^2 / (2 jerk) = way.
   const Eigen::Vector3d& accelerated(const Eigen::Vector3d& way_mps, double dt_sec) {
     const double way = way_mps.norm();
     if (!(dt_sec > 0.0)) return acceleration_mps2_;

@@ -1,4 +1,4 @@
-/// How far a vehicle goes until it stands: it answers after `VehicleParams::response_sec` and then brakes.
+/// Stopping distance of a vehicle that answers after `VehicleParams::response_sec` and then brakes.
 #pragma once
 
 #include "window_ingress/navigation/vehicle_params.hpp"
