@@ -1,6 +1,6 @@
-// The nodes as nodelets, for a nodelet manager that shares images without copying. The setpoint_guard and the
-// world are processes of their own on purpose. Each has a queue and a thread of its own: the manager's would
-// call into a node that is still being made, or is on its way out.
+// The nodes as nodelets, for a nodelet manager that shares images without copying. setpoint_guard and world
+// are separate processes on purpose. Each nodelet has its own queue and thread, because the manager's thread
+// could call into a node during its construction or destruction.
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
@@ -25,9 +25,9 @@ class NodeletOf : public nodelet::Nodelet {
   }
 
  private:
-  // An exception out of onInit would end the manager and every nodelet in it.
+  // An exception from onInit would end the manager and every nodelet in it.
   void onInit() override {
-    decoupleConsole();  // the manager's: it waits for no terminal either, from now on
+    decoupleConsole();  // affects the whole manager: its console output no longer waits for a terminal
     try {
       ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
       nh.setCallbackQueue(&queue_);

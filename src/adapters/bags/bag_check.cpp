@@ -28,7 +28,7 @@ std::optional<Number> numberAt(const std::vector<char>& bytes, std::uint64_t pla
   return number;
 }
 
-/// The fields of a record's header: "name=value", each after its length.
+/// The fields "name=value" of a record's header, each preceded by its length.
 class Fields {
  public:
   explicit Fields(const std::vector<char>& bytes) {
@@ -61,8 +61,7 @@ class Fields {
   std::map<std::string, std::string> values_;
 };
 
-/// Walks over the records one after the other, then compares the places that they name with those that there
-/// are.
+/// Walks over all records, then compares the places named in the index with the records found.
 class BagCheck {
  public:
   explicit BagCheck(const std::string& file) : stream_(file, std::ios::binary) {
@@ -73,7 +72,7 @@ class BagCheck {
   void check() {
     if (isLeftToRosbag()) return;
     for (std::uint64_t place = kMagicSize; place < size_;) place = checkRecord(place);
-    const bool is_empty = index_place_ == size_;  // a bag into which nothing was recorded
+    const bool is_empty = index_place_ == size_;  // an empty bag
     if (!is_empty && records_.count(index_place_) == 0)
       throw Damage{"the index does not begin where it is said to"};
     if (summaries_ != promised_chunks_ || connections_ != promised_connections_)
@@ -83,7 +82,7 @@ class BagCheck {
   }
 
  private:
-  // No file, no bag, cut off before the index was written: said well by rosbag.
+  // No file, not a bag, or cut off before the index: rosbag reports these cases well.
   bool isLeftToRosbag() {
     if (size_ <= kMagicSize || read(0, kMagicSize) != std::vector<char>(kMagic, kMagic + kMagicSize)) {
       const std::vector<char> begin = read(0, std::min<std::uint64_t>(size_, 8));
@@ -110,7 +109,7 @@ class BagCheck {
     return {fields, place + 8 + header_size, lengthAt(place + 4 + header_size)};
   }
 
-  // Of what follows; it must lie within the file.
+  // Length of the following bytes, which must lie within the file.
   std::uint32_t lengthAt(std::uint64_t place) {
     const std::uint32_t length = *numberAt<std::uint32_t>(read(place, 4), 0);
     if (place + 4 + length > size_) throw Damage{"a record is longer than the file"};
@@ -183,7 +182,7 @@ class BagCheck {
     return end;
   }
 
-  // A time and a place within the chunk before it, each.
+  // Each entry: a time, and a place within the preceding chunk.
   void checkIndex(const Record& record) {
     constexpr std::uint64_t kEntry = 12;
     if (chunks_.empty()) throw Damage{"an index comes before any chunk"};
@@ -200,7 +199,7 @@ class BagCheck {
   std::ifstream stream_;
   std::uint64_t size_ = 0, index_place_ = 0, chunk_size_ = 0;
   std::uint32_t promised_connections_ = 0, promised_chunks_ = 0, connections_ = 0, summaries_ = 0;
-  bool is_plain_ = true;  // the chunk before, not compressed
+  bool is_plain_ = true;  // the preceding chunk is not compressed
   std::set<std::uint64_t> records_, chunks_, named_chunks_, messages_;
 };
 

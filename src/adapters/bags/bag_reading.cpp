@@ -66,7 +66,7 @@ class Chooser {
   std::map<std::string, std::string> topics_;
 };
 
-/// Calls `each` with every image that can be read, until it says false.
+/// Calls `each` with every readable image until it returns false.
 void forEachImage(const rosbag::Bag& bag, const std::string& topic, int every,
                   const std::function<bool(const std_msgs::Header&, const cv::Mat&)>& each) {
   int number = 0;
@@ -97,7 +97,7 @@ geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topi
   throw InputError(bag.getFileName() + ": " + topic + ": " + reason);
 }
 
-// Images of one second look alike.
+// Images within one second look alike.
 std::string groupOf(const rosbag::Bag& bag, const ros::Time& stamp) {
   return bag.getFileName() + "/" + std::to_string(stamp.sec);
 }
@@ -106,7 +106,7 @@ template <typename Work>
 auto readingBag(const rosbag::Bag& bag, const Work& work) {
   try {
     return work();
-  } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
+  } catch (const ros::Exception& error) {  // from rosbag and from deserialisation
     throw InputError(bag.getFileName() + ": damaged: " + error.what());
   }
 }
@@ -123,7 +123,7 @@ void openBag(rosbag::Bag& bag, const std::string& file) {
     throw InputError(file + ": has no index, the recording was cut off; repair it with 'rosbag reindex'");
   } catch (const rosbag::BagException& error) {
     throw InputError(file + ": cannot be read as a bag: " + error.what());
-  } catch (const std::exception& error) {  // of whatever a damaged file makes it allocate
+  } catch (const std::exception& error) {  // also allocation failures of a damaged file
     throw InputError(file + ": damaged: " + error.what());
   }
 }

@@ -17,7 +17,7 @@
 
 namespace window_ingress::adapters {
 
-/// Topics of a bag; empty: found by type.
+/// Topics of a bag; an empty one is found by its type.
 struct BagTopics {
   std::string image, camera_info, odom, imu, truth;
 };
@@ -25,44 +25,42 @@ struct BagTopics {
 /// Opens a bag for reading. \throws InputError for a missing, empty, truncated or otherwise broken file
 void openBag(rosbag::Bag& bag, const std::string& file);
 
-/// Types of messages by the topics that the bag has.
+/// Message types in the bag, by topic.
 std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag);
 
-/// Fills in what is empty: the one topic of the right type, ground truth and debug images left aside. An
-/// image topic may be named without its "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
+/// Fills in each empty topic with the only one of the right type, ignoring ground truth and debug images. An
+/// image topic may be named without "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
 /// InputError if there are no images, no calibration, or several topics to choose from
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted);
 
-/// What is wrong with the structure of a bag, so that rosbag must not open it: it follows lengths and places
-/// out of the file without asking, and reads past its buffers. Empty if it may, or if rosbag itself will say
-/// what is the matter (no file, no bag, no index). Of compressed chunks, whose contents bear a checksum, only
-/// the sizes are looked at.
+/// Why rosbag must not open this bag: rosbag follows damaged lengths and places out of the file, and reads
+/// past its buffers. Empty if rosbag may open it, or reports the fault itself (no file, no bag, no index).
+/// Compressed chunks have a checksum; only their sizes are checked.
 std::string whyDamaged(const std::string& file);
 
-/// Transforms of a bag that hold for all of it, as the mounting of the camera does.
+/// Transforms that hold for the whole bag, such as the camera's mounting.
 class RecordedTransforms {
  public:
-  /// What is not finite is left out.
+  /// Ignores transforms that are not finite.
   void take(const tf2_msgs::TFMessage& message);
-  /// T_to_from, or why it is not known.
+  /// T_to_from, or the reason why it is unknown.
   Converted<Eigen::Isometry3d> between(const std::string& to, const std::string& from) const;
 
  private:
   tf2::BufferCore buffer_;
 };
 
-/// T_camera_window by the stamps of the images, as a topic of true poses has it. What is not finite is left
-/// out.
+/// T_camera_window by image stamp, from a topic of true poses. Poses that are not finite are left out.
 std::map<ros::Time, Eigen::Isometry3d> recordedTruth(const rosbag::Bag& bag, const std::string& topic);
 
-/// Images of a bag with what they show, by a topic with the true pose of the window.
+/// Images of a bag, labelled by the true pose of the window.
 /// \param topics as chosen by `chooseTopics`, `truth` among them
-/// \param every take one image of so many
+/// \param every use one image out of this many
 /// \throws InputError if the bag is damaged, or nothing in it can be used
 std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, const BagTopics& topics,
                                                       const geometry::OpeningSize& opening, int every);
 
-/// Images of a bag alone, decoded. \param most stop after so many
+/// Decoded images of a bag, without labels. \param most stops after this many
 std::vector<cv::Mat> imagesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most);
 
 }  // namespace window_ingress::adapters

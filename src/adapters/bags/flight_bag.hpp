@@ -22,11 +22,11 @@ namespace window_ingress::adapters {
 /// `replay_bag` and rviz read it.
 class FlightBag : public evaluation::FlightObserver {
  public:
-  /// Here and in every call: \throws rosbag::BagException if the file cannot be written
+  /// Every member function: \throws rosbag::BagException if the file cannot be written
   explicit FlightBag(const std::string& file)
       : bag_(std::make_unique<rosbag::Bag>(file, rosbag::bagmode::Write)) {}
-  /// A flight that was broken off: closes without a word.
-  // A bag that cannot be closed throws in its own destructor, too: it must not be destroyed then.
+  /// Closes the bag of an interrupted flight silently.
+  // Trap: a bag that cannot be closed throws in its own destructor as well, so it must not be destroyed then.
   ~FlightBag() override {
     try {
       if (bag_) bag_->close();
@@ -88,7 +88,7 @@ class FlightBag : public evaluation::FlightObserver {
                   toPoseStampedMsg(world_->T_odom_window(), headerOf(now, frames_.odom)));
   }
 
-  /// Writes what is left
+  /// Writes the rest and closes the bag.
   void onEnd() override { bag_->close(); }
 
  private:

@@ -72,7 +72,7 @@ class Replay {
   ReplaySummary summary_;
 };
 
-// What does not change in a flight is known before it: calibration and mounting. Truth is looked up by stamp.
+// Reads what is constant in a flight (calibration, mounting) and the truth, which is looked up by stamp.
 void Replay::prepare(const rosbag::Bag& bag) {
   rosbag::View infos(bag, rosbag::TopicQuery(params_.topics.camera_info));
   if (infos.begin() != infos.end())
@@ -151,7 +151,7 @@ void Replay::noticeJump(const ros::Time& stamp) {
 
 void Replay::forgetAll() {
   eyes_.forget();
-  if (params_.reference) eyes_.setReference(*params_.reference);  // without the light that it has followed
+  if (params_.reference) eyes_.setReference(*params_.reference);  // discards the adaptation to the light
   odometry_.clear();
   waiting_.clear();
 }
@@ -242,9 +242,9 @@ ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
     rosbag::View view(bag,
                       rosbag::TopicQuery(std::vector<std::string>{t.image, t.camera_info, t.odom, t.imu}));
     for (const rosbag::MessageInstance& message : view) run.take(message);
-  } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
+  } catch (const ros::Exception& error) {  // from rosbag and from deserialisation
     throw InputError(bag.getFileName() + ": damaged: " + error.what());
-  } catch (const std::bad_alloc&) {  // lengths of a damaged message
+  } catch (const std::bad_alloc&) {  // from lengths in a damaged message
     throw InputError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
   } catch (const std::length_error&) {
     throw InputError(bag.getFileName() + ": damaged: a message is longer than any can be");

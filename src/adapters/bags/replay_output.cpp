@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Seconds with all nine decimals, which a double has not.
+// Seconds with all nine decimals, which a double cannot hold.
 std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
 
 std::string useOf(const std::string& topic, const BagTopics& topics) {
@@ -116,7 +116,7 @@ std::string filterDetails(const std::optional<estimation::FilteredWindow>& filte
   return values;
 }
 
-/// The time that an image took is not of the bag: its column stays empty.
+/// Leaves the column of the processing time empty, because that time is not part of the bag.
 std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
 
 constexpr int kWidestPx = 640, kQuality = 80;

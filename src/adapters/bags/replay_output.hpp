@@ -1,4 +1,4 @@
-/// What a replay leaves behind as csv: a row an image in each of three files.
+/// Output of a replay: three csv files with one row per image.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -13,27 +13,27 @@
 
 namespace window_ingress::adapters {
 
-/// How many messages of a topic lie in the bag.
+/// Number of messages of a topic in the bag.
 std::size_t messagesIn(const rosbag::Bag& bag, const std::string& topic);
 
-/// Writes folder/replay.json: the command, the bag with its topics and which of them were used, images with
-/// and without calibration, odometry and attitude, messages refused and why.
+/// Writes folder/replay.json: command, bag, topics and their use, counts of images with and without
+/// calibration, odometry and attitude, refused messages and reasons.
 /// \throws std::runtime_error if it cannot be written
 void writeFacts(const std::filesystem::path& folder, const std::string& command, const rosbag::Bag& bag,
                 const ReplayParams& params, const ReplaySummary& summary);
 
-/// The arguments as one line that a shell takes apart again.
+/// The arguments as one line with shell quoting.
 std::string commandLine(int argc, char** argv);
 
-/// frames.csv: detection, pose, filtered pose, and the errors where the truth is known. details.csv: what an
-/// image came with, its angles and widths, and why it did not contribute. latency.csv: milliseconds. The
-/// same bag gives the same bytes in the first two.
+/// frames.csv: detection, pose, filtered pose, and errors where the truth is known. details.csv: inputs of
+/// each image, angles and widths, and why it did not contribute. latency.csv: milliseconds. The first two
+/// files are reproducible to the byte.
 class ReplayTables {
  public:
   /// \throws std::runtime_error if a file cannot be made
   ReplayTables(const std::filesystem::path& folder, const ReplayParams& params);
 
-  /// \throws std::runtime_error if not all could be written
+  /// \throws std::runtime_error if a row cannot be written completely
   void add(const ReplayedFrame& frame);
 
   const evaluation::TruthSummary& summary() const { return summary_; }
@@ -47,14 +47,14 @@ class ReplayTables {
   evaluation::TruthSummary summary_;
 };
 
-/// Writes pictures/NNNNN.jpg, at most `kMax` of them and one at each change between found and not found, and
-/// strip.csv: stamp, file, why it is there, and what it shows.
+/// Writes pictures/NNNNN.jpg, at most `kMax` evenly spaced ones plus one at each change between found and not
+/// found, and strip.csv: stamp, file, reason and content.
 class DetectionStrip {
  public:
-  static constexpr int kMax = 36;         ///< evenly over time
-  static constexpr int kMaxChanges = 24;  ///< beyond those
+  static constexpr int kMax = 36;         ///< pictures evenly spaced over time
+  static constexpr int kMaxChanges = 24;  ///< additional pictures at changes
 
-  /// \param images that will come
+  /// \param images expected number of images
   /// \throws std::runtime_error if the folder cannot be made
   DetectionStrip(const std::filesystem::path& folder, std::size_t images);
 

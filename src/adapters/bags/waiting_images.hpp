@@ -11,8 +11,8 @@
 
 namespace window_ingress::adapters {
 
-/// Images of a bag, in their order, each until what belongs to its exposure has come: odometry as new as
-/// itself; for the attitude an image does not wait for ever, which may have stopped.
+/// Queue of a bag's images. Each image waits for the inputs of its exposure: odometry at least as new as the
+/// image, and the attitude for a limited time only, because attitudes may have stopped.
 class WaitingImages {
  public:
   struct Image {
@@ -27,14 +27,14 @@ class WaitingImages {
   void noteOdometry(double stamp_sec) { odometry_sec_ = stamp_sec; }
   void noteAttitude(double stamp_sec) { attitude_sec_ = stamp_sec; }
 
-  /// The first, if it waits for nothing more. \param newest_sec the newest stamp of all that has come
+  /// The first image, if its inputs are complete. \param newest_sec newest stamp of all messages so far
   std::optional<Image> takeComplete(double newest_sec) {
     const bool too_many = images_.size() > kMaxWaiting;
     if (!too_many && (images_.empty() || !isComplete(images_.front(), newest_sec))) return std::nullopt;
     return take();
   }
 
-  /// The first, whatever it waits for.
+  /// The first image, complete or not.
   std::optional<Image> take() {
     if (images_.empty()) return std::nullopt;
     std::optional<Image> first = std::move(images_.front());
@@ -49,7 +49,7 @@ class WaitingImages {
 
  private:
   static constexpr std::size_t kMaxWaiting = 30;
-  static constexpr double kAttitudeWaitSec = 0.05;  // in time of the bag
+  static constexpr double kAttitudeWaitSec = 0.05;  // in the bag's time
 
   bool isComplete(const Image& image, double newest_sec) const {
     const double sec = image.header.stamp.toSec();

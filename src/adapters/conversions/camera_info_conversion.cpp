@@ -106,8 +106,8 @@ PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
   return camera;
 }
 
-// First the region, in unbinned pixels, then the binning. A binned pixel's centre is the mean of those it
-// holds.
+// First the region, in unbinned pixels, then the binning. A binned pixel's centre is the mean of its pixels'
+// centres.
 void cropAndBin(PinholeCamera& camera, const sensor_msgs::CameraInfo& m) {
   const int bin_x = std::max(1, static_cast<int>(m.binning_x)),
             bin_y = std::max(1, static_cast<int>(m.binning_y));

@@ -10,7 +10,7 @@ namespace {
 
 using DetectionMsg = window_ingress::WindowDetection;
 using RowMajor2d = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
-constexpr std::size_t kMaxInteriorPoints = 1000;  // what a detector sends stays far below
+constexpr std::size_t kMaxInteriorPoints = 1000;  // far above what a detector sends
 
 template <typename Numbers>
 bool allFinite(const Numbers& numbers) {
@@ -73,7 +73,7 @@ window_ingress::WindowAppearance appearanceMsg(const detection::WindowObservatio
   return message;
 }
 
-// What the message does not call visible stays zero, whatever it says.
+// A corner that the message marks as invisible stays zero, whatever its numbers.
 bool readCorner(const window_ingress::WindowCorner& message, Eigen::Vector2d& corner,
                 Eigen::Matrix2d& covariance) {
   if (message.visible == 0) return false;

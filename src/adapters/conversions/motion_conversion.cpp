@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kNoStamp = "header.stamp is zero or not normalised";
 constexpr double kUnitTolerance = 0.01;
-constexpr double kFarthestM = 1e5;  // beyond it a position is a fault, not a place
+constexpr double kFarthestM = 1e5;  // a position further away is a fault
 constexpr double kFastestMps = 100.0, kFastestRadps = 100.0;
 
 std::string frameFault(const char* field, const std::string& found, const std::string& wanted) {

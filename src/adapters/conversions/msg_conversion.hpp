@@ -1,5 +1,6 @@
-/// Messages to the types of the core and back: free functions, one direction each. What comes from outside is
-/// either converted whole or refused with a reason; nothing that is not finite gets in or out.
+/// Converts messages to the types of the core and back: free functions, one direction each. A message is
+/// either converted completely or refused with a reason. Numbers that are not finite pass in neither
+/// direction.
 #pragma once
 
 #include <geometry_msgs/Pose.h>
@@ -40,13 +41,13 @@ using configuration::FrameNames;
 template <typename Value>
 struct Converted {
   std::optional<Value> value;
-  std::string reason;  ///< empty if there is a value
+  std::string reason;  ///< why there is no value; empty if there is one
   explicit operator bool() const { return value.has_value(); }
 };
 
 // --- geometry
 
-/// Normalises; refuses what is not finite or further than 1 % from unit length.
+/// Normalises. Refuses quaternions that are not finite or differ by more than 1 % from unit length.
 Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message);
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message);
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message);
@@ -70,12 +71,12 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
 
 // --- sensors
 
+/// Applies binning and region of interest: the camera is that of the received image (REP 104).
 /// \param rectified the images are rectified: P is used instead of K and D
-/// Binning and region of interest are applied: the camera is that of the image as it comes (REP 104).
 Converted<geometry::PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified);
 sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< without header
 
-/// The twist is taken in the child frame, as REP 147 and nav_msgs say, and rotated to odom.
+/// Takes the twist in the child frame (REP 147, nav_msgs) and rotates it to odom.
 Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames);
 
 /// Attitude of the vehicle.
@@ -83,26 +84,26 @@ struct StampedAttitude {
   double stamp_sec = 0.0;
   Eigen::Quaterniond R_odom_base = Eigen::Quaterniond::Identity();
 };
-/// Refused in another frame, and where the message says that it has no attitude (REP 145).
+/// Refuses another frame, and messages marked as having no attitude (REP 145).
 Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame);
 
 // --- window
 
-// Messages without header, and of detections without what the image was.
+// Messages have no header; detections do not describe their image.
 window_ingress::WindowDetection toMsg(const detection::WindowObservation& window);
-window_ingress::WindowDetection toMsg(const detection::DetectionTrace& trace);  ///< why there is no window
-/// Refuses `detected == false` with the message's own reason.
+window_ingress::WindowDetection toMsg(const detection::DetectionTrace& trace);  ///< no window, with reason
+/// Refuses `detected == false` with the message's reason.
 Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
 window_ingress::InteriorPoints toMsg(const detection::InteriorTracks& interior);
-/// None if the lists are not of one length or there is no key image.
+/// Empty if the lists differ in length or there is no keyframe.
 detection::InteriorTracks fromMsg(const window_ingress::InteriorPoints& message);
 window_ingress::DetectedWindow toMsg(const detection::SeenWindow& window);
-/// Those of the message that are convex, finite quadrilaterals; at most `kMaxSeenWindows`.
+/// The convex, finite quadrilaterals of the message, at most `kMaxSeenWindows`.
 std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message);
 constexpr std::size_t kMaxSeenWindows = 64;
 window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);
 
-/// What the pose node has verified on the way.
+/// Checks by the pose node.
 struct VerifiedTarget {
   estimation::FramesVerdict frames;
   estimation::FitVerdict fit{estimation::Fit::kUnknown, ""};
@@ -112,26 +113,25 @@ struct VerifiedTarget {
 };
 
 window_ingress::ImagePose toMsg(const estimation::PoseResult& result);
-/// \return that the image contributed; the frame is left to the caller
+/// \return a message of an image that contributed, without frame
 window_ingress::FilteredPose toMsg(const estimation::FilteredWindow& filtered);
-window_ingress::WindowSize toMsg(const geometry::OpeningSize& size);  ///< as told: without deviation
+window_ingress::WindowSize toMsg(const geometry::OpeningSize& size);  ///< as given, without deviation
 window_ingress::WindowSize toMsg(const estimation::SizeEstimate& estimate);
 window_ingress::SystemChecks toMsg(const VerifiedTarget& verified);
 window_ingress::Openness toMsg(const openness::OpennessVerdict& verdict);
-openness::OpennessVerdict fromMsg(const window_ingress::Openness& message);  ///< what is no verdict is none
+openness::OpennessVerdict fromMsg(const window_ingress::Openness& message);  ///< UNKNOWN if invalid
 window_ingress::CameraInBody toMsg(const navigation::CameraInBody& camera);
-/// Nothing where the message does not know, or says why no image can give a pose. Its numbers are judged by
-/// the navigator.
+/// Empty if the camera is unknown or no image can give a pose. The navigator checks the numbers.
 std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message);
-/// \param target null: not known to be the target yet
-/// \param expected where it must be in the image
+/// \param target null if the target is not known yet
+/// \param expected the target's expected place in the image
 window_ingress::RememberedTarget targetMsg(const facade::KnownWindow* target,
                                            const std::optional<geometry::Quadrilateral>& expected);
 std::optional<geometry::Quadrilateral> expectedFrom(const window_ingress::RememberedTarget& message);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 
-/// Where the target is by the memory of all windows.
+/// The remembered place of the target, in odom.
 std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& message,
                                               const std::string& odom_frame);
 

@@ -50,7 +50,7 @@ window_ingress::WindowMotion toMsg(const estimation::TargetMotion& motion) {
   return message;
 }
 
-// Its numbers are judged by the navigator, with all others.
+// The navigator checks the numbers.
 estimation::TargetMotion fromMsg(const window_ingress::WindowMotion& message) {
   return {{message.typical_speed, message.typical_time}, toEigen(message.velocity), message.velocity_sigma};
 }

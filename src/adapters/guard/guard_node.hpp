@@ -9,13 +9,11 @@
 
 namespace window_ingress::adapters {
 
-/// The last gate before the autopilot, in a process of its own: it outlives the navigator.
+/// The last gate before the autopilot, in a process of its own, so that it outlives the navigator.
 ///
-/// What it sends goes out on `passed_on`, too: the navigator watches that.
-///
-/// Sends at `rate_hz` on the steady clock, from its start until it is stopped, what `SetpointGate` lets
-/// through. In lockstep, which is refused outside simulated time, time stands still where no input comes, and
-/// so does the guard.
+/// From its start to its end it sends what `SetpointGate` lets through, at `rate_hz` on the steady clock. The
+/// same messages go out on `passed_on`, which the navigator monitors. In lockstep, which is refused outside
+/// simulated time, the guard's time advances only with its input.
 class GuardNode : public Node {
  public:
   GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);

@@ -8,7 +8,7 @@ namespace window_ingress::adapters {
 
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
   const auto &v = twist.linear, &w = twist.angular;
-  // One by one: std::hypot of three numbers swallows a NaN beside zeros.
+  // Checked one by one, because std::hypot of three numbers swallows a NaN beside zeros.
   for (const double number : {v.x, v.y, v.z, w.x, w.y, w.z})
     if (!std::isfinite(number)) return "velocity is not finite";
   const double speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);

@@ -15,30 +15,30 @@ using configuration::GuardParams;
 /// Why this velocity must not reach the autopilot; empty if it may.
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params);
 
-/// What the last gate lets through: the input while it is recent and sane, zero in every other case, and
-/// nothing at all once sane input has been missing for too long. No clock: times are seconds of the steady
-/// one.
+/// The rules of the last gate: recent, sane input passes; otherwise the output is zero, and after a longer
+/// time without sane input there is no output. Has no clock: all times are seconds on the steady clock.
 ///
-/// - before the first sane input: zero, for as long as that takes. An autopilot wants a stream before it may
-///   be told to follow it.
+/// - before the first sane input: zero, without time limit, because an autopilot needs a stream before it can
+///   be switched to follow it
 /// - input up to `late_sec` old: the input, or zero if it is not finite or beyond the limits
-/// - older: zero, so that the vehicle brakes; an autopilot that holds the last velocity (ArduPilot: 3 s)
-///   would fly on
-/// - no sane input for `stop_streaming_after_sec` more: nothing. Velocity zero is no place to stay: it drifts
-///   with the error of the autopilot's own velocity, some centimetres a second. The default leaves the time
-///   to brake from 1.5 m/s (2 s, 1.2 m) and for a pilot to take over, and drifts less than half a metre.
-/// - the next sane input begins all this anew
+/// - older input: zero, so that the vehicle brakes; an autopilot that holds the last velocity (for 3 s with
+///   ArduPilot) would fly on
+/// - no sane input for `stop_streaming_after_sec` more: no output, because zero velocity does not hold a
+///   place: the vehicle drifts with the error of the autopilot's velocity, some centimetres a second. The
+///   default leaves time to brake from 1.5 m/s (2 s, 1.2 m) and for a pilot to take over; the drift is less
+///   than half a metre.
+/// - the next sane input restarts the rules
 class SetpointGate {
  public:
   explicit SetpointGate(const GuardParams& params) : params_(params) {}
 
   void receive(const geometry_msgs::Twist& twist, double now_sec);
-  /// \return what to send now; nothing: send nothing
+  /// \return the message to send now; empty: send nothing
   std::optional<geometry_msgs::Twist> output(double now_sec) const;
 
   bool isLate(double now_sec) const { return !(now_sec - received_sec_ <= params_.late_sec); }
   bool isSilent(double now_sec) const;  ///< nothing is sent
-  /// Why the last input is refused; empty if it is not.
+  /// Why the last input was refused; empty if it was not.
   const std::string& fault() const { return fault_; }
   double sinceSaneSec(double now_sec) const { return now_sec - sane_sec_; }
 

@@ -13,7 +13,7 @@
 
 namespace window_ingress::adapters {
 namespace {
-constexpr double kLateSec = 0.5;  // a pose so much older than an image says nothing of it
+constexpr double kLateSec = 0.5;  // an older pose does not describe the image
 }
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
@@ -56,7 +56,7 @@ void DetectorNode::receivePose(const window_ingress::WindowPoseConstPtr& message
   if (lockstep_) lockstep_->check();
 }
 
-// The pose of the image before says where the target is expected in this one.
+// The previous image's pose says where the target is expected in this one.
 bool DetectorNode::hasPoseOfLastImage() const {
   if (pose_subscriber_.getNumPublishers() == 0 || looked_.isZero()) return true;
   return last_pose_ && last_pose_->header.stamp >= looked_;
@@ -70,7 +70,7 @@ bool DetectorNode::isComplete(const Lockstep::Step& step) const {
          reference_stamp_ >= step.reference && hasPoseOfLastImage();
 }
 
-// Before the first image there is an answer, too: those who wait for it learn that this node is there.
+// Answers before the first image as well, so that waiting nodes learn that this node runs.
 void DetectorNode::lookInStep(const Lockstep::Step& step) {
   if (waiting_) look(waiting_header_, *waiting_);
   waiting_.reset();
@@ -133,7 +133,7 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
   debug_publisher_.publish(toImageMsg(canvas_, header));
 }
 
-// Where the memory of all windows says the target is: as of the image before.
+// Expected place of the target, from the memory of all windows after the previous image.
 std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
   if (!last_pose_ || last_pose_->header.frame_id != header.frame_id ||
       std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > perception::kExpectationLastsSec)
@@ -141,7 +141,7 @@ std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::
   return expectedFrom(last_pose_->target);
 }
 
-// That of the image before: the pose of this one is not known yet. Empty if there is none of late.
+// Yaw of the previous image, because this image's pose is not known yet. Empty if there is no recent one.
 std::string DetectorNode::yawAt(const ros::Time& stamp) const {
   if (!last_pose_ || last_pose_->image.reject != window_ingress::ImagePose::OK ||
       std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
@@ -164,7 +164,7 @@ void DetectorNode::use(const detection::ReferenceAppearance& reference, const st
                     (reference.openingIsKnown() ? "" : ", opening guessed: give reference/corners");
 }
 
-// Why there is nothing to capture, or nothing.
+// Why no reference can be captured; empty if one can.
 std::string DetectorNode::captureFault() const {
   if (last_image_.image.empty()) return "no image so far";
   if (!perception_.window()) return "no window in the last image: " + perception_.trace().detail;

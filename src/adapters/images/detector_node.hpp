@@ -67,16 +67,16 @@ class DetectorNode : public Node {
   Tuning tuning_;
   cv::Mat canvas_;
   DecodedImage last_image_;
-  double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
+  double searched_sec_ = 0.0;  ///< time of the last searched image, on the steady clock
   bool reference_is_guess_ = false;
-  std::string reference_from_;  // empty: there is no reference
+  std::string reference_from_;  // source of the reference; empty: no reference
   ProcessingTime times_;
   std::optional<Lockstep> lockstep_;
-  std_msgs::Header waiting_header_;  // in lockstep: of the image that waits for its step
+  std_msgs::Header waiting_header_;  // in lockstep: header of the image that waits for its step
   std::optional<DecodedImage> waiting_;
   ros::Time reference_stamp_, announced_, looked_;
 
-  window_ingress::WindowPose::ConstPtr last_pose_;  // of an image before the present one
+  window_ingress::WindowPose::ConstPtr last_pose_;  // of an earlier image
   ros::Subscriber reference_subscriber_, pose_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;
   ros::ServiceServer capture_, reset_;

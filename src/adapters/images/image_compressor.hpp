@@ -12,7 +12,7 @@
 namespace window_ingress::adapters {
 
 struct ImageCompressorParams {
-  int quality = 90;  ///< of the JPEG, 1 to 100
+  int quality = 90;  ///< JPEG quality, 1 to 100
   ImageLimits image;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -21,12 +21,12 @@ struct ImageCompressorParams {
   }
 };
 
-/// An image as JPEG under the same header, or why there is none.
+/// The image as JPEG with the same header, or the reason why not.
 Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPtr& image,
                                                  const ImageCompressorParams& params);
 
-/// Images as JPEG, for recordings of cameras whose driver does not compress: image_raw to compressed.
-/// Silent, saying so, where somebody publishes there already.
+/// Publishes images as JPEG, for recordings with a camera driver that does not compress: image_raw to
+/// compressed. If the topic already has a publisher, the node reports that and stays silent.
 class ImageCompressorNode : public Node {
  public:
   ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);

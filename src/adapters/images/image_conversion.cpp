@@ -54,14 +54,14 @@ std::optional<CompressedSize> jpegSize(const Bytes& bytes) {
   return std::nullopt;
 }
 
-// The end of a PNG is the chunk IEND with its checksum, that of a JPEG the marker "ff d9".
+// A PNG ends with the chunk IEND and its checksum, a JPEG with the marker "ff d9".
 bool endsWith(const Bytes& bytes, std::size_t end, std::initializer_list<std::uint8_t> mark) {
   return end >= mark.size() &&
          std::equal(mark.begin(), mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end - mark.size()));
 }
 
-// Whether a JPEG or PNG ends before its end mark: a decoder would fill what is missing with grey. Zeros
-// behind the end are padding.
+// Whether a JPEG or PNG ends before its end mark: a decoder would fill the missing part with grey. Zeros
+// after the end mark are padding.
 bool isCutOff(const Bytes& bytes) {
   std::size_t end = bytes.size();
   while (end > 0 && bytes[end - 1] == 0) --end;
@@ -75,8 +75,8 @@ constexpr int kAsItIs = -1;
 
 struct Encoding {
   const char* name;
-  int code = kAsItIs;          // of cv::cvtColor, to BGR
-  const char* read_as = name;  // the encoding of ROS that it is
+  int code = kAsItIs;          // conversion code of cv::cvtColor to BGR
+  const char* read_as = name;  // the ROS encoding it is read as
 
   bool isSixteenBit() const { return enc::bitDepth(read_as) == 16; }
   int bytesPerPixel() const { return enc::numChannels(read_as) * enc::bitDepth(read_as) / 8; }
@@ -158,7 +158,7 @@ DecodedImage refusal(const std::string& reason) {
   return result;
 }
 
-// Shares the message's bytes where nothing is to be converted.
+// Shares the message's bytes if no conversion is needed.
 cv::Mat converted(const sensor_msgs::Image& message, const Encoding& encoding) {
   cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), encoding.type(),
                 const_cast<unsigned char*>(message.data.data()), message.step);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFileQuality = 95;
 
-// libjpeg leaves a call that fails by a jump, and says nothing.
+// On an error, libjpeg must leave its call by longjmp; messages are suppressed.
 struct JpegErrors {
   jpeg_error_mgr manager;
   std::jmp_buf failed;
@@ -29,7 +29,7 @@ void useQuietly(jpeg_error_mgr*& place, JpegErrors& errors) {
   errors.manager.emit_message = [](j_common_ptr, int) {};
 }
 
-// Nothing with a destructor may live between setjmp and what jumps back to it.
+// Nothing with a destructor may live between setjmp and a longjmp back to it.
 bool readJpegInto(cv::Mat& image, jpeg_decompress_struct& jpeg, JpegErrors& errors,
                   const std::vector<std::uint8_t>& bytes) {
   if (setjmp(errors.failed) != 0) return false;
@@ -85,7 +85,7 @@ cv::Mat readPng(const std::vector<std::uint8_t>& bytes) {
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) return {};
   const bool grey = (png.format & PNG_FORMAT_FLAG_COLOR) == 0;
   const bool transparent = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
-  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are no other light than 8
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // sRGB, as 8-bit images are
   png.format = transparent ? PNG_FORMAT_BGRA : grey ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
   cv::Mat image(static_cast<int>(png.height), static_cast<int>(png.width),
                 CV_8UC(PNG_IMAGE_SAMPLE_CHANNELS(png.format)));
@@ -122,7 +122,8 @@ std::vector<std::uint8_t> writeJpeg(const cv::Mat& image, int quality) {
                                                                                       &jpeg_destroy_compress);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  if (!writeJpegInto(bytes, size, jpeg, errors, image, quality)) return {};  // the buffer is libjpeg's then
+  if (!writeJpegInto(bytes, size, jpeg, errors, image, quality))
+    return {};  // on failure libjpeg owns the buffer
   const std::unique_ptr<unsigned char, decltype(&std::free)> buffer(bytes, &std::free);
   return {bytes, bytes + size};
 }

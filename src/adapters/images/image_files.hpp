@@ -1,4 +1,4 @@
-/// JPEG and PNG by libjpeg and libpng: OpenCV's own readers load GDAL and 110 libraries more, 39 MB in each
+/// JPEG and PNG by libjpeg and libpng: OpenCV's own readers load GDAL and 110 more libraries, 39 MB per
 /// process.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace window_ingress::adapters {
 
-/// \return CV_8UC1 if the image is grey, else CV_8UC3 (BGR); empty if it is neither JPEG nor PNG, or damaged.
-///         Transparency and the orientation that a camera noted are left out of account.
+/// \return CV_8UC1 for a grey image, else CV_8UC3 (BGR); empty if it is neither JPEG nor PNG, or damaged.
+/// Ignores transparency and the orientation noted by the camera.
 cv::Mat readImage(const std::vector<std::uint8_t>& bytes);
 
 /// \param image CV_8UC1 or CV_8UC3 (BGR)
@@ -18,7 +18,7 @@ cv::Mat readImage(const std::vector<std::uint8_t>& bytes);
 /// \return empty if it cannot be written
 std::vector<std::uint8_t> writeJpeg(const cv::Mat& image, int quality);
 
-/// Writes a file of the format that its name ends with: .jpg, .jpeg or .png. \return whether it could
+/// Writes a file in the format of its extension: .jpg, .jpeg or .png. \return whether it succeeded
 bool writeImage(const std::string& file, const cv::Mat& image);
 
 }  // namespace window_ingress::adapters

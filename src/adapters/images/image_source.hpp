@@ -19,7 +19,7 @@
 
 namespace window_ingress::adapters {
 
-/// Why images cannot come by this transport, and which there are; empty if they can.
+/// Why this transport cannot be used, with a list of transports; empty if it can.
 inline std::string whyNoTransport(const std::string& transport) {
   using Plugin = image_transport::SubscriberPlugin;
   std::string known = "compressed";
@@ -33,13 +33,13 @@ inline std::string whyNoTransport(const std::string& transport) {
          "-image-transport; Debian: build it in your workspace)";
 }
 
-/// Images of the topic `image_raw`, by any transport: those that image_transport has, and "compressed",
-/// which is read here, because its plugin decodes without looking at sizes and is not in every distribution.
+/// Images of the topic `image_raw` by any transport of image_transport, or by "compressed". The latter is
+/// decoded here, because its plugin decodes without a check of the size and is missing in some distributions.
 class ImageSource {
  public:
   using Callback = std::function<void(const std_msgs::Header&, const DecodedImage&)>;
 
-  /// \throws InputError that lists the transports if there is no such one
+  /// \throws InputError that lists the transports if this one does not exist
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
               const ImageLimits& limits, const StampLimits& stamps, Callback callback)
       : limits_(limits),

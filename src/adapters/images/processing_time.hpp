@@ -13,17 +13,17 @@
 
 namespace window_ingress::adapters {
 
-/// What the detector's images cost, stage by stage, beside what they may cost.
+/// Processing time of the detector's images per stage, compared with the budget.
 class ProcessingTime {
  public:
-  /// \param budget_ms for one image; 0: the time between two images of the camera
-  /// \param clock seconds that never go back
+  /// \param budget_ms per image; 0: the camera's period
+  /// \param clock monotonic, seconds
   ProcessingTime(double budget_ms, detection::StageTimer::Clock clock)
       : watch_(clock), clock_(clock), budget_ms_(budget_ms) {}
 
   detection::StageTimer& watch() { return watch_; }
 
-  /// An image has come. \param decode_ms spent on it before
+  /// Starts an image. \param decode_ms decoding time before this call
   void begin(const std_msgs::Header& header, double decode_ms) {
     notePeriod(header.seq);
     decode_ms_ = decode_ms;
@@ -32,7 +32,7 @@ class ProcessingTime {
 
   /// \return milliseconds since `begin`
   double sinceBegin() const { return 1e3 * (clock_() - begun_sec_); }
-  /// The image is done, drawing it for people included.
+  /// Ends an image, after the debug image was drawn.
   void end() {
     const double part = images_++ == 0 ? 1.0 : kTimeSmoothing, whole_ms = decode_ms_ + sinceBegin();
     whole_ms_ += part * (whole_ms - whole_ms_);
@@ -64,12 +64,12 @@ class ProcessingTime {
 
  private:
   static constexpr double kTimeSmoothing = 0.1;
-  /// An image that comes after so many ends a pause of the camera; two in a row show a slower camera.
+  /// A period longer than this many ends a pause of the camera; two in a row mean a slower camera.
   static constexpr double kPausePeriods = 3.0;
 
   double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
-  // By the clock that the work is timed with: a bag may be played slowly. Images that are dropped for want of
-  // time are counted by their numbers.
+  // Measured by the clock of the work, because a bag may be played slowly. The numbers of images count those
+  // that were dropped for lack of time.
   void notePeriod(std::uint32_t number) {
     const double now_sec = clock_();
     if (images_ > 0) {
@@ -84,10 +84,10 @@ class ProcessingTime {
   detection::StageTimer watch_;
   detection::StageTimer::Clock clock_;
   double budget_ms_, begun_sec_ = 0.0, decode_ms_ = 0.0;
-  double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // but for the last: means of late
+  double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // recent means, except for the last
   double period_ms_ = 0.0;
   bool paused_ = false;
-  std::array<double, detection::kStages> stage_ms_{};  // means of late
+  std::array<double, detection::kStages> stage_ms_{};  // recent means
   std::uint32_t number_ = 0;                           // of the last image
   long images_ = 0;
 };

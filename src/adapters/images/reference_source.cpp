@@ -14,7 +14,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-// A text in YAML's single quotes.
+// The text in YAML's single quotes.
 std::string yamlQuoted(const std::string& text) {
   std::string result = "'";
   for (char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);

@@ -17,32 +17,32 @@ namespace window_ingress::adapters {
 
 using configuration::ReferenceParams;
 
-/// A reference from an image and eight numbers, or none for the whole image. \throws InputError
+/// A reference from an image and the opening's corners: eight numbers, or none for the whole image. \throws
+/// InputError
 detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::vector<double>& corners,
                                              const detection::DetectorParams& params);
 
-/// The same from a message, live or recorded. \throws InputError
+/// A reference from a message, live or recorded. \throws InputError
 detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImage& message,
                                              const ImageLimits& limits,
                                              const detection::DetectorParams& params);
 
-/// Reads the operator's image. \throws InputError that says what is wrong with it
+/// A reference from the operator's image file. \throws InputError that says what is wrong with the file
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params);
 
-/// Of one reference: the image; beside it, of the same name, one that ends in .yaml with the parameters that
-/// load it, below the node's name, so that it can be laid over the defaults as `config:=`; and one that ends
-/// in _understood.png, what is made of it (`detection::drawReference`).
+/// Files of one reference, with the same stem: the image; a .yaml overlay for `config:=` with the parameters
+/// that load it, below the node's name; and _understood.png, a drawing of the reference
+/// (`detection::drawReference`).
 struct ReferenceFiles {
   std::filesystem::path image, overlay, understood;  ///< absolute
   explicit ReferenceFiles(const std::string& file);
 };
 
-/// The file itself, or, where one of a reference's is there already, the first of FILE_2, FILE_3 .. without
-/// any.
+/// The file itself, or the first of FILE_2, FILE_3 .. for which no file of a reference exists.
 std::string unusedReferenceFile(const std::string& file);
 
-/// Writes all of them. \throws InputError that says which could not be written
+/// Writes all files of a reference. \throws InputError that names the file that could not be written
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference);
 
 }  // namespace window_ingress::adapters

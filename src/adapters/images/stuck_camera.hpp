@@ -6,15 +6,14 @@
 
 namespace window_ingress::adapters {
 
-/// Notices images that stay the same to the last bit, as those of a stuck camera do under new stamps.
+/// Detects a stuck camera: its images stay the same to the bit under new stamps.
 class StuckCamera {
  public:
   static constexpr double kStuckSec = 1.0;
 
   /// \return whether the image has been the same for longer than `kStuckSec`
   bool isStuck(const cv::Mat& image, double now_sec) {
-    constexpr std::size_t kStride = 101;  // a prime: every row and every column is sampled, some ten thousand
-                                          // bytes of a usual image
+    constexpr std::size_t kStride = 101;  // prime: samples every row and column, some 10,000 bytes
     std::uint64_t checksum = 1469598103934665603ULL;  // FNV-1a
     const std::size_t row_bytes = image.cols * image.elemSize();
     std::size_t offset = 0;

@@ -8,7 +8,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kMaxGapSec = 0.02;  // a turn is told by the difference of two attitudes
+constexpr double kMaxGapSec = 0.02;  // small, because a turn is measured by the difference of two attitudes
 
 }  // namespace
 

@@ -17,8 +17,8 @@
 
 namespace window_ingress::adapters {
 
-/// The vehicle's attitude at the time of an image, from tf. A transform may come later than the image:
-/// that one goes without, and only what lasts is told.
+/// The vehicle's attitude at the time of an image, from tf. An image does without if its transform comes
+/// late; only a lasting lack is reported.
 class TfAttitude {
  public:
   TfAttitude(const tf2_ros::Buffer& tf, const std::string& odom_frame, const std::string& base_frame);
@@ -29,15 +29,15 @@ class TfAttitude {
  private:
   const tf2_ros::Buffer& tf_;
   std::string odom_frame_, base_frame_, fault_;
-  double known_sec_, asked_sec_;  // when it was last known and last asked for, on the steady clock
+  double known_sec_, asked_sec_;  // times of the last success and the last request, on the steady clock
 };
 
-/// Where the camera is mounted on the vehicle, as tf says now, or why it is not known.
+/// The camera's present mounting on the vehicle in tf, or the reason why it is unknown.
 Converted<Eigen::Isometry3d> mountingOf(const tf2_ros::Buffer& tf, const std::string& base_frame,
                                         const std::string& camera_frame);
 
 /// Attitude of the camera at the exposure of an image: `imu`, interpolated, and the camera's mounting in tf.
-/// Help, no need: who asks does without where it is not known, and diagnostics say why.
+/// The attitude is optional: without it images are still used, and diagnostics give the reason.
 class AttitudeSource {
  public:
   /// Subscribes to `imu` and to tf.
@@ -45,8 +45,8 @@ class AttitudeSource {
 
   std::optional<Eigen::Matrix3d> R_world_camera(double stamp_sec, const std::string& camera_frame);
 
-  /// For lockstep: stamp of the message that came last, whether all is there, and something to call when a
-  /// message has come.
+  /// For lockstep: stamp of the last message, whether all inputs are connected, and a function to call after
+  /// each message.
   ros::Time lastStamp() const { return stamp_; }
   bool isConnected(const std::string& camera_frame) const;
   void notify(std::function<void()> came) { came_ = std::move(came); }

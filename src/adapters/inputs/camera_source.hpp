@@ -16,9 +16,9 @@
 
 namespace window_ingress::adapters {
 
-/// The calibration as last heard: camera_info and images are not paired by stamp, they only have to fit in
-/// size and frame. A new calibration counts from the next image on; one that cannot be used withdraws the one
-/// before. Diagnostics tell what does not fit, and stamps that are apart.
+/// The latest calibration. camera_info and images are not paired by stamp; only size and frame must match. A
+/// new calibration applies from the next image on, and an unusable one invalidates the previous. Diagnostics
+/// report mismatches and distant stamps.
 class CameraSource {
  public:
   /// Subscribes to `camera_info`.
@@ -34,7 +34,7 @@ class CameraSource {
     camera_.reason = "no camera_info on " + subscriber_.getTopic() + " so far";
   }
 
-  /// The camera of an image of this size, or why there is none. An empty `frame_id` fits every frame.
+  /// The camera for an image of this size, or the reason why not. An empty `frame_id` matches every frame.
   Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& image) {
     misfit_ = camera_ ? misfit(width_px, height_px, image.frame_id) : "";
     if (camera_) compareStamps(image.stamp);
@@ -53,15 +53,15 @@ class CameraSource {
     if (came_) came_();
   }
 
-  /// For lockstep: stamp of the message that came last, and something to call when one has come.
+  /// For lockstep: stamp of the last message, and a function to call after each message.
   ros::Time lastStamp() const { return stamp_; }
   bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
   void notify(std::function<void()> came) { came_ = std::move(came); }
 
  private:
-  static constexpr double kNearSec = 0.2;  // stamps of an image and of its calibration, be it one frame off
+  static constexpr double kNearSec = 0.2;  // stamps of an image and its calibration may be one frame apart
   static constexpr double kApartSec =
-      1.2;  // so long may no stamp be near: camera_info may come once a second
+      1.2;  // longest time without near stamps: camera_info may come once a second
 
   std::string misfit(int width_px, int height_px, const std::string& frame_id) const {
     const std::string topic = "camera_info on " + subscriber_.getTopic();
@@ -92,7 +92,7 @@ class CameraSource {
     return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
   }
 
-  // Nothing in an image tells whether its lens was taken out of it; the name of its topic may.
+  // An image does not show whether it was rectified already; the name of its topic may.
   std::string undoneTwice() const {
     const auto& lens = camera_.value->distortion;
     const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
@@ -107,7 +107,7 @@ class CameraSource {
   std::string frame_id_;
   ros::Time stamp_;
   std::string misfit_;
-  double apart_sec_ = 0.0, together_sec_ = 0.0;  // of stamps; when they were last near, on the steady clock
+  double apart_sec_ = 0.0, together_sec_ = 0.0;  // difference of stamps; last time near, on the steady clock
   std::function<void()> came_;
   TopicHealth health_;
   ros::Subscriber subscriber_;

@@ -2,7 +2,7 @@
 
 namespace window_ingress::adapters {
 
-/// Notices that the clock went back, as it does when a bag is looped or a simulation reset.
+/// Detects a clock that jumps back: a looped bag, or a simulation that was reset.
 class ClockWatch {
  public:
   /// \return true once for each jump back by more than 0.1 s

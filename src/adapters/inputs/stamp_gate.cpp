@@ -6,7 +6,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-// It publishes no clock while it unpacks a chunk of the bag, and then sends all that was due.
+// A player publishes no clock while it unpacks a chunk of the bag, and then sends all due messages at once.
 constexpr const char* kSlowPlayer =
     "; if a bag is played, its player is too slow: rosbag decompress the bag, or play at rate:=0.3";
 

@@ -12,13 +12,13 @@ namespace window_ingress::adapters {
 
 using configuration::StampLimits;
 
-/// Admits messages of one topic by their stamp: stamped, recent, and newer than the one before. Starts anew
+/// Admits messages of one topic by their stamp: not zero, recent, and newer than the previous one. Restarts
 /// when the clock jumps back.
 class StampGate {
  public:
   explicit StampGate(const StampLimits& limits) : limits_(limits) {}
 
-  /// \return nothing if the message is admitted, else why it is not, with numbers
+  /// \return empty if the message is admitted, else the reason with numbers
   std::optional<std::string> whyRefused(const ros::Time& stamp, double now_sec);
 
  private:

@@ -23,9 +23,9 @@ constexpr int kStateRgb[navigation::kStateCount] = {
 };
 
 constexpr std::size_t kMaxPlaces = 2000;
-constexpr double kFunnelM = 1.5;     // shown outside the commit line
-constexpr double kViewM = 0.35;      // length of the pyramid that stands for the camera
-constexpr double kTextBelowM = 0.6;  // above are the texts of windows
+constexpr double kFunnelM = 1.5;     // length of the part outside the commit line
+constexpr double kViewM = 0.35;      // length of the pyramid that shows the camera's view
+constexpr double kTextBelowM = 0.6;  // above are the texts of the windows
 constexpr std::size_t kTextWidth = 30;
 constexpr int kTurnParts = 10;
 
@@ -53,7 +53,7 @@ void appendRing(Points& strokes, const Points& corners) {
   }
 }
 
-// Its edges only: a face would take the clicks that are meant for windows behind it.
+// Draws edges only, because faces would take clicks meant for windows behind the funnel.
 void drawFunnel(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_window,
                 const std::vector<FunnelSection>& sections) {
   Points edges, commit_line;
@@ -95,7 +95,7 @@ void drawCamera(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_base,
   sketch.strokes("camera", strokes, colourOf(kTextRgb, 0.5));
 }
 
-// Where the nose will point, over the next second.
+// Direction of the nose over the next second.
 void drawTurn(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_base,
               const navigation::Setpoint& setpoint) {
   constexpr double kRadiusM = 0.6, kSlowestRadps = 0.02;

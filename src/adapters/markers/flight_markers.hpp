@@ -1,4 +1,4 @@
-/// What rviz shows of the flight.
+/// Markers of the flight for rviz.
 #pragma once
 
 #include <ros/time.h>
@@ -13,12 +13,12 @@
 
 namespace window_ingress::adapters {
 
-/// A state of the navigator: the colours of plot_flight (tools/ingress_tools/flight_data.py).
+/// Colour of a navigator's state, as in plot_flight (tools/ingress_tools/flight_data.py).
 std_msgs::ColorRGBA colourOf(navigation::State state, double alpha = 1.0);
 
-constexpr int kSetpointRgb = 0xff3fa4;  ///< what the navigator wishes
+constexpr int kSetpointRgb = 0xff3fa4;  ///< the navigator's setpoint
 
-/// The way flown, with the state at each place. Bounded: when it is full, every other place is dropped.
+/// The flown path with the state at each place. Bounded: when full, it drops every other place.
 class FlightTrail {
  public:
   struct Place {
@@ -26,7 +26,7 @@ class FlightTrail {
     navigation::State state;
   };
 
-  /// Places nearer than the spacing to the last one are left out, unless the state has changed.
+  /// Skips a place nearer than the spacing to the last one, unless the state has changed.
   void add(const Eigen::Vector3d& position_odom_m, navigation::State state);
   void clear() { *this = FlightTrail(); }
   const std::vector<Place>& places() const { return places_; }
@@ -36,22 +36,22 @@ class FlightTrail {
   double spacing_m_ = 0.05;
 };
 
-/// A cross-section of the funnel: where the body's centre, with three standard deviations, must be for
-/// forward flight at this distance to the window's plane.
+/// A cross-section of the funnel: permits forward flight at this distance to the window's plane if the body's
+/// centre lies inside with three standard deviations.
 struct FunnelSection {
   double distance_m = 0.0;
   double half_width_m = 0.0, half_height_m = 0.0;
 };
 
-/// From the plane over the commit line outwards, as the navigator itself judges them for this vehicle; empty
-/// if the vehicle does not fit.
+/// Cross-sections from the plane across the commit line outwards, by the navigator's rules for this vehicle;
+/// empty if the vehicle does not fit.
 std::vector<FunnelSection> funnelOf(const navigation::VehicleState& vehicle,
                                     const navigation::TargetEstimate& target,
                                     const navigation::NavigatorParams& params);
 
-/// The vehicle as a box of its true size in the colour of its state, what its camera sees, the way flown in
-/// the colours of the states, the setpoint as the way of the next second, the state in words; and while the
-/// sign of the target is trusted, the funnel with the commit line.
+/// The vehicle as a box of its true size in the colour of its state, its camera's view, the flown path in the
+/// colours of the states, the setpoint as the path of the next second, and the state as text. With a trusted
+/// sign also the funnel and the commit line.
 visualization_msgs::MarkerArray flightMarkers(const navigation::NavigatorOutput& output,
                                               const navigation::NavigatorInput& input,
                                               const FlightTrail& trail,

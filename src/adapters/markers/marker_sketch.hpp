@@ -1,4 +1,4 @@
-/// Shapes as rviz draws them.
+/// Shapes for rviz.
 #pragma once
 
 #include <ros/time.h>
@@ -14,19 +14,18 @@ namespace window_ingress::adapters {
 /// \param rgb 0xRRGGBB
 std_msgs::ColorRGBA colourOf(int rgb, double alpha = 1.0);
 
-constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, its normal being certain
-constexpr int kOpenRgb = 0xffa500;      ///< the likelier of two windows that the images do not tell apart
-constexpr int kMirroredRgb = 0xb05cff;  ///< the other one
-constexpr int kWallRgb = 0xd8c8ab;      ///< the wall's plane
-constexpr int kKnownRgb = 0x7fb2e5;     ///< a window that is remembered; open or closed is not known
-constexpr int kClosedRgb = 0xe74c3c;    ///< one that was seen to be closed
+constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, if its normal is trusted
+constexpr int kOpenRgb = 0xffa500;      ///< the likelier of the two solutions
+constexpr int kMirroredRgb = 0xb05cff;  ///< the less likely solution
+constexpr int kWallRgb = 0xd8c8ab;      ///< the plane of the wall
+constexpr int kKnownRgb = 0x7fb2e5;     ///< a remembered window of unknown openness
+constexpr int kClosedRgb = 0xe74c3c;    ///< a closed window
 constexpr int kTextRgb = 0xffffff;
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Collects shapes of one frame at one time. A shape is known by its name: one of the same name replaces it,
-/// and if none comes, it vanishes after `kLifetimeSec`. What cannot be drawn (not finite, empty) is taken
-/// away.
+/// Collects shapes in one frame at one time. A shape replaces the previous one of the same name, and vanishes
+/// after `kLifetimeSec` without a new one. A shape that cannot be drawn (not finite, empty) is removed.
 class MarkerSketch {
  public:
   static constexpr double kLifetimeSec = 1.0;
@@ -34,20 +33,20 @@ class MarkerSketch {
   MarkerSketch(const ros::Time& stamp, const std::string& frame_id);
 
   void line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour);
-  /// \param colours one a point
+  /// \param colours one per point
   void line(const std::string& name, const Points& points, std::vector<std_msgs::ColorRGBA> colours);
-  /// \param ends two a stroke
+  /// \param ends two points per stroke
   void strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour);
-  /// \param corners three a triangle; seen from both sides
+  /// \param corners three points per triangle; visible from both sides
   void surface(const std::string& name, const Points& corners, const std_msgs::ColorRGBA& colour);
   void arrow(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
              const std_msgs::ColorRGBA& colour);
   void box(const std::string& name, const Eigen::Isometry3d& T_frame_box,
            const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour);
-  /// Surface of `sigmas` standard deviations.
+  /// Surface at this number of standard deviations.
   void ellipsoid(const std::string& name, const Eigen::Vector3d& centre, const Eigen::Matrix3d& covariance,
                  double sigmas, const std_msgs::ColorRGBA& colour);
-  /// Always upright towards the observer; its middle is at `centre`.
+  /// Always upright and facing the observer, centred at `centre`.
   void text(const std::string& name, const Eigen::Vector3d& centre, const std::string& text);
   void gone(const std::string& name);
 
@@ -61,14 +60,14 @@ class MarkerSketch {
   visualization_msgs::MarkerArray markers_;
 };
 
-/// Takes everything away that was ever drawn on this topic.
+/// Removes everything ever drawn on this topic.
 visualization_msgs::MarkerArray allGone(const ros::Time& stamp, const std::string& frame_id);
 
-/// The four corners of a plane face as two triangles, appended.
+/// Appends a plane face with four corners as two triangles.
 void appendFace(Points& triangles, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                 const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
-/// Lines of at most so many characters, broken between words.
+/// Breaks the text between words into lines of at most `most` characters.
 std::string wrapped(const std::string& text, std::size_t most);
 
 }  // namespace window_ingress::adapters

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kArrowM = 0.9, kFanM = 0.75;
 constexpr double kSigmas = 3.0;
-constexpr double kWallM = 1.2;                            // shown beyond the opening's border
-constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
-constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
-constexpr double kFaceAlpha = 0.2;                        // seen through, and yet a click meets it
-constexpr double kFlyableM = 0.3, kFlyableScore = 0.5;    // smaller, or worse: a pane, a paving stone
+constexpr double kWallM = 1.2;                            // extent beyond the opening's border
+constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // above the opening's upper border
+constexpr double kFaintest = 0.5;                         // opacity of the less likely hypothesis
+constexpr double kFaceAlpha = 0.2;                        // transparent, but still clickable
+constexpr double kFlyableM = 0.3, kFlyableScore = 0.5;    // below: a pane, a paving stone
 constexpr int kFanParts = 12;
 
 Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
@@ -35,7 +35,7 @@ Points closed(Points corners) {
   return corners;
 }
 
-// Between the headings that lie `half_angle_rad` to both sides of the window's.
+// Fan between the headings `half_angle_rad` to both sides of the window's.
 Points fanOf(const Eigen::Isometry3d& T, double half_angle_rad) {
   const auto at = [&](int part) -> Eigen::Vector3d {
     const double angle_rad = half_angle_rad * (2.0 * part / kFanParts - 1.0);
@@ -48,7 +48,7 @@ Points fanOf(const Eigen::Isometry3d& T, double half_angle_rad) {
   return triangles;
 }
 
-// Four plates round the opening.
+// Four plates around the opening.
 Points wallOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
   const Points inner = cornersOf(T, size);
   const Points outer = cornersOf(T, {size.width_m + 2.0 * kWallM, size.height_m + 2.0 * kWallM});
@@ -89,14 +89,14 @@ bool isFoundOut(const window_ingress::KnownWindow& window) {
   return window.openness != window_ingress::Openness::UNKNOWN || window.failures > 0;
 }
 
-// Somebody would fly at it, or somebody did and something was found out.
+// A possible target, or a window whose openness is known or at which a flight has failed.
 bool isDrawn(const window_ingress::KnownWindow& window) {
   const bool is_candidate = window.may_be_target && window.score >= kFlyableScore &&
                             std::min(window.width, window.height) >= kFlyableM;
   return is_candidate || isFoundOut(window);
 }
 
-// One thing under two numbers, or a part of it: the target's, or that of the better score, is drawn.
+// The same object under two numbers, or a part of it: only the target or the better score is drawn.
 bool isPartOfAnother(const window_ingress::KnownWindow& window, const window_ingress::Facade& facade) {
   const auto hides = [&](const window_ingress::KnownWindow& other) {
     const auto& a = window.pose.position;

@@ -1,4 +1,4 @@
-/// What rviz shows of the window.
+/// Markers of the windows for rviz.
 #pragma once
 
 #include <geometry_msgs/PolygonStamped.h>
@@ -15,24 +15,23 @@
 
 namespace window_ingress::adapters {
 
-/// The opening's border in frame `frame_id`, in which `T_frame_window` stands.
+/// The opening's border in the frame `frame_id` of `T_frame_window`.
 geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_window,
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,
                                              const std::string& frame_id);
 
-/// What people want to read at the window.
+/// Text beside the window.
 std::string windowLabel(const window_ingress::WindowPose& message);
 
-/// The filtered window: its border; the way through it as an arrow, with a fan of three standard deviations
-/// of its heading; the ellipsoid of three standard deviations of its centre; `text` beside it. Once the
-/// normal is trusted the plane of the wall; until then the other hypothesis, the fainter the less likely it
-/// is.
+/// The filtered window: its border; an arrow through it, with a fan of three standard deviations of its
+/// heading; an ellipsoid of three standard deviations of its centre; `text` beside it. With a trusted normal
+/// also the plane of the wall, otherwise the other hypothesis, whose opacity shows its likelihood.
 visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window,
                                               const std::string& text, const ros::Time& stamp,
                                               const std::string& frame_id);
 
-/// The windows known that somebody would fly at: borders coloured by whether they are open, above each its
-/// number and verdict, and within a faint face, which a click meets.
+/// The known windows that may be flown through: borders coloured by openness, number and verdict above, and
+/// inside a faint, clickable face.
 visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade);
 
 }  // namespace window_ingress::adapters

@@ -9,12 +9,12 @@ namespace window_ingress::adapters {
 
 using configuration::EngagementParams;
 
-/// Whether the vehicle follows setpoints: armed, and in a mode that does. Where nobody says so it is taken
-/// to, unless that is `required`; once anybody has said anything, only a recent yes is a yes. Times are those
-/// of the steady clock.
+/// Whether the vehicle is engaged: armed, and in a mode that follows setpoints. Without any message it counts
+/// as engaged, unless `required`. After the first message only a recent yes counts. Times are on the steady
+/// clock.
 class EngagedFreshness {
  public:
-  /// Nodes that say it may start a little later, and speak once a second [s].
+  /// Nodes that report engagement may start a little later, and report once a second [s].
   static constexpr double kGraceSec = 3.0;
 
   explicit EngagedFreshness(const EngagementParams& params, double started_sec = steadyNowSec())
@@ -31,7 +31,7 @@ class EngagedFreshness {
     return engaged_ && !isSilent(now_sec);
   }
 
-  /// \param topic where it is said, for people
+  /// \param topic name of the topic, for the text
   Health health(const std::string& topic, double now_sec) const {
     if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
       return {Health::kOk, "waiting for " + topic};

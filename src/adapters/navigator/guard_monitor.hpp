@@ -14,10 +14,10 @@
 
 namespace window_ingress::adapters {
 
-/// The navigator's eye on the guard, as the guard has one on the navigator: what reaches the autopilot is
-/// heard on `passed_on`. While nobody passes anything on, the navigator itself sends the autopilot zeros, and
-/// nothing but zeros, for an autopilot that hears nothing flies its last velocity on for seconds. Times are
-/// those of the steady clock.
+/// The navigator's watch on the guard (the guard also watches the navigator): messages to the autopilot are
+/// also on `passed_on`. While they are missing, the navigator itself sends zeros to the autopilot, never
+/// anything else, because an autopilot without input flies its last velocity on for seconds. Times are on the
+/// steady clock.
 class GuardMonitor {
  public:
   GuardMonitor(ros::NodeHandle& nh, Diagnostics& diagnostics, const configuration::GuardMonitorParams& params)
@@ -26,14 +26,14 @@ class GuardMonitor {
     diagnostics.add(kTopic, [this] { return health(); });
   }
 
-  /// Where nobody has been heard so far they are taken to be, unless that is `required`.
+  /// Before the first message on `passed_on` the setpoints count as passed on, unless `required`.
   bool passesOn() const {
     if (std::isinf(heard_sec_)) return !params_.required;
     return steadyNowSec() - heard_sec_ <= params_.max_silence_sec;
   }
 
-  void sent() { sent_sec_ = steadyNowSec(); }  ///< there is something to pass on
-  /// Zeros past the guard, if it does not pass them on; to be called in each step of a mission.
+  void sent() { sent_sec_ = steadyNowSec(); }  ///< notes that a setpoint was sent
+  /// Sends zeros past the guard if it does not pass setpoints on; called in each step of a mission.
   void brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
     if (passesOn()) return;
     if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
@@ -71,7 +71,7 @@ class GuardMonitor {
   double sent_sec_ = -std::numeric_limits<double>::infinity();
   double heard_sec_ = -std::numeric_limits<double>::infinity();
   ros::Subscriber subscriber_;
-  ros::Publisher brake_;  ///< only while it is needed: otherwise the autopilot hears the guard alone
+  ros::Publisher brake_;  ///< exists only while needed: otherwise the autopilot hears the guard alone
 };
 
 }  // namespace window_ingress::adapters

@@ -12,8 +12,8 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kChoiceSec = 2.0;    // for the pose node to take another target
-constexpr double kSameSizeM = 0.005;  // plus three sigma of a size that is still being found out
+constexpr double kChoiceSec = 2.0;    // time for the pose node to switch the target
+constexpr double kSameSizeM = 0.005;  // plus three sigma of a size that is still being estimated
 constexpr std::array kOpenings = {"", "ask", "allow", "deny"};
 constexpr std::array kGlass = {"", "possible", "excluded"};
 
@@ -92,7 +92,7 @@ bool MissionAction::isChosen(std::uint32_t window_id) const {
   return facade_.target_id == window_id && facade_.target_chosen != 0;
 }
 
-// The pose node knows the windows; its facade says whether it has taken this one.
+// The pose node knows the windows; its facade shows whether it has accepted this one.
 void MissionAction::choose(std::uint32_t window_id) {
   std_msgs::UInt32 message;
   message.data = window_id;

@@ -17,23 +17,23 @@
 
 namespace window_ingress::adapters {
 
-/// The mission as an action for whoever plans more than this flight. It only asks and tells: whether anything
-/// may be flown, and the brake, are the navigator's business, whether a client listens or not.
+/// The mission as an action, for a planner that controls more than this flight. It only requests and reports:
+/// the navigator decides whether to fly and brakes by itself, with or without a client.
 class MissionAction {
  public:
   struct Mission {
-    std::function<std::string()> flying;  ///< why no further mission may begin now; empty if none is flown
+    std::function<std::string()> flying;  ///< why no other mission may begin now; empty if it may
     std::function<navigation::Reply(const navigation::MissionPolicy&)> start;
-    std::function<navigation::Reply()> abort;  ///< has sent zero when it returns
+    std::function<navigation::Reply()> abort;  ///< zero has been sent when it returns
   };
 
-  /// \param diagnostics outlives this
+  /// \param diagnostics must outlive this
   MissionAction(ros::NodeHandle& nh, Diagnostics& diagnostics, Mission mission);
 
-  void hear(const window_ingress::IngressState& state);      ///< of every step: what ends the goal
-  void feedBack(const window_ingress::IngressState& state);  ///< as published
-  void hear(const window_ingress::WindowSize& size);         ///< which size the window is taken for
-  void stop();                                               ///< the node ends
+  void hear(const window_ingress::IngressState& state);      ///< call in every step: ends the goal
+  void feedBack(const window_ingress::IngressState& state);  ///< call for each published state
+  void hear(const window_ingress::WindowSize& size);         ///< the size that the pose node uses
+  void stop();                                               ///< call when the node ends
 
  private:
   using Goal = window_ingress::IngressGoal;
@@ -55,7 +55,7 @@ class MissionAction {
 
   Mission mission_;
   Phase phase_ = Phase::kNone;
-  Server::GoalHandle goal_;        // valid unless kNone
+  Server::GoalHandle goal_;        // valid unless the phase is kNone
   double chosen_since_sec_ = 0.0;  // on the steady clock
   window_ingress::Facade facade_;
   window_ingress::WindowSize window_size_;

@@ -1,4 +1,4 @@
-/// Which inputs of the navigator's node are stale, and what its diagnostics say of them and of itself.
+/// Stale inputs of the navigator's node, and its diagnostics.
 #include <cmath>
 
 #include "adapters/navigator/navigator_node.hpp"
@@ -23,7 +23,7 @@ void NavigatorNode::reportHealth() {
   diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
 }
 
-// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
+// Drops inputs that no longer arrive, whatever their stamps: the ROS clock may stand still.
 void NavigatorNode::forgetSilentInputs() {
   if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
   if (pose_health_.silentSec() > params_.max_pose_silence_sec) {

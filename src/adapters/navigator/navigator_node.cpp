@@ -11,14 +11,14 @@
 namespace window_ingress::adapters {
 namespace {
 
-// Which axes, not which name: frame_id is filled from odom_frame and base_frame.
+// Names the axes, not the frame: frame_id is filled from odom_frame and base_frame.
 constexpr const char* kBaseAxes = "base_link";
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
 constexpr double kRounding = 1e-6;
-constexpr std::size_t kMaxReason = 400;  // characters of what others say
+constexpr std::size_t kMaxReason = 400;  // characters of texts from other nodes
 
-// What the navigator keeps to already, asked once more of what is sent.
+// The navigator's own limits, checked once more on each sent setpoint.
 GuardParams lastGate(const navigation::LimitParams& limits) {
   GuardParams gate;
   gate.max_speed_mps = limits.speed_mps + kRounding;
@@ -127,20 +127,21 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   input_.remembered_odom_m = rememberedFrom(*message, frames().odom);
   takeCamera(message->camera);
   if (action_) action_->hear(message->size);
-  if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window is news, too
+  if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window also counts
   const auto target = targetFromMsg(*message, frames().odom);
   if (!target) return pose_health_.refused(target.reason);
   pose_health_.accepted();
   input_.target = target.value;
 }
 
-// In lockstep the vehicle's parameters count: the world is told the same, and flights repeat to the bit.
+// Lockstep uses the vehicle's parameters, which the world knows as well: flights repeat to the bit.
 void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
   input_.camera_fault = message.fault.substr(0, kMaxReason);
   if (lockstep_) return;
   input_.camera = cameraFromMsg(message);
   if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;
-  params_.navigator.vehicle = navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // as drawn
+  params_.navigator.vehicle =
+      navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // for the markers
 }
 
 void NavigatorNode::step() {
@@ -190,7 +191,7 @@ void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros
   publishMarkers(output, now);
 }
 
-// The way flown is noted all the time, so that who looks later sees it, too.
+// The path is recorded all the time, so that a late subscriber sees it as well.
 void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now) {
   if (!input_.vehicle) return;
   trail_.add(input_.vehicle->T_odom_base.translation(), output.state);
@@ -208,7 +209,7 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
     R_odom_base = known ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
                                           input_.vehicle->T_odom_base.linear())
                         : Eigen::Matrix3d::Identity();
-  const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
+  const bool directionless = R_odom_base && !known;  // unknown attitude: stand still
   geometry_msgs::TwistStamped message =
       toTwistMsg(directionless ? navigation::Setpoint() : setpoint, frames(), R_odom_base);
   message.header.stamp = now;

@@ -34,9 +34,9 @@ namespace window_ingress::adapters {
 using configuration::NavigatorNodeParams;
 
 /// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
-/// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls
-/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too. While disabled
-/// it starts nothing and leaves the setpoints to others.
+/// zeros, so that an autopilot accepts the switch to a mode that follows setpoints (not in lockstep). After
+/// an abort it stops sending, so that the autopilot's own failsafe acts. While disabled it starts no mission
+/// and sends no setpoints.
 class NavigatorNode : public Node {
  public:
   NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
@@ -95,16 +95,16 @@ class NavigatorNode : public Node {
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false, is_disabled_ = false;
-  SetpointGate last_gate_;  // asked at once: nothing is ever late there
+  SetpointGate last_gate_;  // checked without delay, so no input is late
   std::string refused_;     // the last refusal
   std::optional<Lockstep> lockstep_;
-  ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
-  double step_sec_ = 0.0;            // in lockstep: the time that the world has
+  ros::Time odom_came_, pose_came_;  // stamps of the last messages, used or not
+  double step_sec_ = 0.0;            // in lockstep: the world's time
 
   ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
   std::vector<ros::ServiceServer> services_;
-  std::optional<MissionAction> action_;  // not in lockstep: nobody asks there
+  std::optional<MissionAction> action_;  // not in lockstep, which has no client
   ros::SteadyTimer timer_;
 };
 

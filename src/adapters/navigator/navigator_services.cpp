@@ -1,4 +1,4 @@
-/// What others may ask of the navigator's node: services, and the action's goal and cancel.
+/// Requests to the navigator's node: services, and the action's goal and cancel.
 #include "adapters/navigator/navigator_node.hpp"
 
 namespace window_ingress::adapters {
@@ -52,7 +52,7 @@ bool NavigatorNode::isLeftToOthers() const {
   return is_disabled_ && (last_.state == State::kIdle || last_.state == State::kPassed);
 }
 
-// In flight it is aborted first: zeros go on as after ~abort.
+// Disabling in flight first aborts the mission: zeros continue as after ~abort.
 bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   is_disabled_ = !request.data;
   if (!is_disabled_)
@@ -64,7 +64,7 @@ bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBoo
                 response);
 }
 
-// How a mission ended is published before it is forgotten, however soon the reset comes.
+// Publishes the mission's end before it is forgotten, however soon the reset comes.
 navigation::Reply NavigatorNode::reset() {
   if (!lockstep_ && navigation::isEnd(navigator_.state())) step();
   return navigator_.reset();
@@ -74,8 +74,7 @@ template <typename Response>
 bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Response& response) {
   const std::string said =
       std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
-  if (reply.success || said != refused_)
-    ROS_INFO("%s", said.c_str());  // who asks again and again is told once
+  if (reply.success || said != refused_) ROS_INFO("%s", said.c_str());  // a repeated request is logged once
   refused_ = reply.success ? "" : said;
   response.success = reply.success;
   response.message = reply.message;

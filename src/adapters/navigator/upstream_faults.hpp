@@ -12,8 +12,8 @@
 
 namespace window_ingress::adapters {
 
-/// What detector, pose node and autopilot lack, heard on /diagnostics: the navigator does not see images
-/// itself, and is asked why it does not start.
+/// Missing inputs of detector, pose node and autopilot, from /diagnostics: the navigator sees no images
+/// itself, but must say why it does not start.
 class UpstreamFaults {
  public:
   UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
@@ -21,7 +21,7 @@ class UpstreamFaults {
         nh, "/diagnostics", 20, diagnostics, [this](const auto& message) { hear(*message); });
   }
 
-  /// One for each input that is missing now.
+  /// One text for each input that is missing now.
   std::vector<std::string> texts() const {
     std::vector<std::string> texts;
     for (const char* input : kInputs) {
@@ -32,7 +32,7 @@ class UpstreamFaults {
     return texts;
   }
 
-  /// One for each node that has said nothing of itself for a while.
+  /// One text for each node without a recent status.
   std::vector<std::string> silentNodes() const {
     std::vector<std::string> texts;
     for (const auto& [node, heard_sec] : heard_sec_)
@@ -66,7 +66,7 @@ class UpstreamFaults {
     }
   }
 
-  std::map<std::string, Fault> faults_;  // by the name of the status
+  std::map<std::string, Fault> faults_;  // by name of the status
   std::map<std::string, double> heard_sec_{{"window_detector", steadyNowSec()},
                                            {"homography_pose", steadyNowSec()}};
   ros::Subscriber subscriber_;

@@ -9,7 +9,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kFarthest_m = 2.0;    // from the middle of a small vehicle
+constexpr double kFarthest_m = 2.0;    // from the centre of a small vehicle
 constexpr double kHalfTurn = 3.14160;  // [rad], rounded up
 const char* const kNames[] = {"x", "y", "z", "yaw", "pitch", "roll"};
 

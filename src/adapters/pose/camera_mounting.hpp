@@ -14,8 +14,8 @@ struct CameraMountingParams {
   /// x, y, z [m, at most 2], yaw, pitch, roll [rad, at most half a turn] of the camera in the body, x
   /// forward, y left, z up
   std::vector<double> pose;
-  std::string base_frame = "base_link";               ///< of the body
-  std::string camera_frame = "camera_optical_frame";  ///< of the images
+  std::string base_frame = "base_link";               ///< frame of the body
+  std::string camera_frame = "camera_optical_frame";  ///< frame of the images
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("pose", self.pose);
@@ -24,12 +24,12 @@ struct CameraMountingParams {
   }
 };
 
-/// \param pose x, y, z [m], yaw, pitch, roll [rad]: turned about z, then y, then x. Zero angles look ahead, a
-/// positive pitch looks down, a positive yaw to the left. \throws InputError if these are not six
-/// numbers, or none of a camera on a small vehicle: degrees in place of radians, millimetres
+/// \param pose x, y, z [m], yaw, pitch, roll [rad]: rotations about z, then y, then x. Zero angles look
+/// ahead, a positive pitch looks down, a positive yaw to the left. \throws InputError unless these are six
+/// plausible numbers for a small vehicle (not degrees or millimetres)
 Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose);
 
-/// Where the camera sits, on tf_static: base, camera_link (forward, left, up) and the optical frame.
+/// Publishes the camera's mounting on tf_static: base, camera_link (forward, left, up) and the optical frame.
 class CameraMountingNode : public Node {
  public:
   CameraMountingNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);

@@ -29,7 +29,7 @@ Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
   return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
 }
 
-// Closed is no fault of the node's: it is for the navigator to act upon.
+// A closed window is not a fault of this node; the navigator acts upon it.
 Health opennessHealth(const openness::OpennessVerdict& verdict) {
   return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
                            (verdict.openness == openness::Openness::kOpen

@@ -1,4 +1,4 @@
-/// What the pose node's diagnostics say of what was found out on the way.
+/// Diagnostics of the pose node: results of its checks.
 #pragma once
 
 #include <window_ingress/ApparentOpening.h>
@@ -18,20 +18,20 @@
 namespace window_ingress::adapters {
 
 Health framesHealth(const estimation::FramesVerdict& frames);
-/// A warning from 50 ms on, if that is certain. Odometry stamped ahead of its arrival is said, and corrected.
+/// Warns of a certain offset from 50 ms on. Reports odometry stamped ahead of its arrival (corrected).
 Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry);
 Health opennessHealth(const openness::OpennessVerdict& verdict);
 Health consistencyHealth(const estimation::Consistency& consistency);
 
-/// Images with a window in them while no target is known.
+/// Images that show a window while no target is known.
 struct UnusedImages {
   void add(const std::string& why_not, const window_ingress::ApparentOpening& opening);
   int count = 0;
-  std::string why;                          ///< the last one was not used
-  double aspect = 0.0, aspect_sigma = 0.0;  ///< of the last that showed it: width over height; 0: none did
+  std::string why;                          ///< why the last image was not used
+  double aspect = 0.0, aspect_sigma = 0.0;  ///< width over height of the last window; 0: none
 };
-/// An error where many could not be used; one that names both shapes where that of the opening is another.
+/// An error if many images could not be used; names both aspect ratios if the opening's differs.
 Health targetHealth(const UnusedImages& unused, const geometry::OpeningSize& wanted);
 
 }  // namespace window_ingress::adapters

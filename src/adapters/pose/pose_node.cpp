@@ -132,7 +132,7 @@ void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   tracker_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
 }
 
-// An image waits until odometry has caught up with its exposure: poses are interpolated, not guessed.
+// An image waits until odometry has reached its exposure, because poses are interpolated, not extrapolated.
 void PoseNode::processPending(bool however_old) {
   if (!pending_) return;
   const bool caught_up = odometry_stamp_sec_ >= pending_->header.stamp.toSec();
@@ -179,7 +179,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   selection_.publish(message.header.stamp, publisher_.markers());
 }
 
-// Fills in what this image shows. Returns why it did not contribute to what is filtered; no reason if it did.
+// Fills in what this image shows. Returns why the image did not contribute to the filter; empty if it did.
 PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& message,
                                      window_ingress::WindowPose& out) {
   using Filtered = window_ingress::FilteredPose;
@@ -191,7 +191,7 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
     out.image.reject = Image::NO_WINDOW;
     out.image.reason = window.reason;
   }
-  if (message.image_width == 0) return {Filtered::NO_WINDOW, window.reason};  // there was no image
+  if (message.image_width == 0) return {Filtered::NO_WINDOW, window.reason};  // no image
   const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
                                        static_cast<int>(message.image_height), message.header);
   const auto stamp_sec = stampSec(message.header.stamp);

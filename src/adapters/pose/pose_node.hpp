@@ -69,7 +69,7 @@ class PoseNode : public Node {
   TopicHealth window_health_, odom_health_;
   std::optional<TopicHealth> imu_health_;
   std::optional<Lockstep> lockstep_;
-  ros::Time window_came_, odom_came_, imu_came_;  // stamps of what came last, used or not
+  ros::Time window_came_, odom_came_, imu_came_;  // stamps of the last messages, used or not
   StampGate window_gate_, odom_gate_;
   estimation::SenderClock odom_clock_;
   ClockWatch clock_;
@@ -78,7 +78,7 @@ class PoseNode : public Node {
   estimation::Consistency consistency_;
   UnusedImages unused_;
   double odometry_stamp_sec_ = -1.0;
-  ros::Time forgotten_;  // what is no younger tells of a world that is gone
+  ros::Time forgotten_;  // messages up to this stamp describe a world that no longer exists
   window_ingress::WindowDetectionConstPtr pending_;
   double pending_since_sec_ = 0.0;  // on the steady clock
   Converted<Eigen::Isometry3d> T_base_camera_;

@@ -17,7 +17,7 @@
 
 namespace window_ingress::adapters {
 
-/// The window's pose on all topics that carry it, as markers, and as transform.
+/// Publishes the window's pose on all its topics, as markers and as transform.
 class PosePublisher {
  public:
   /// \param window_frame empty: no transform is sent
@@ -30,7 +30,7 @@ class PosePublisher {
     markers_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
   }
 
-  /// \param filtered if the window's place is known
+  /// \param filtered empty if the window's place is unknown
   void publish(const window_ingress::WindowPose& message,
                const std::optional<estimation::FilteredWindow>& filtered) {
     pose_.publish(message);
@@ -38,7 +38,7 @@ class PosePublisher {
     if (filtered) publishFiltered(message, *filtered);
   }
 
-  /// All markers are gone.
+  /// Removes all markers.
   void clear(const ros::Time& stamp) { markers_.publish(allGone(stamp, odom_frame_)); }
 
   ros::Publisher& markers() { return markers_; }

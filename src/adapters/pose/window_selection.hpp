@@ -19,12 +19,12 @@
 
 namespace window_ingress::adapters {
 
-/// Which of all known windows is the target: `~select_window`, a click in rviz (`clicked_point`), a goal of
-/// the navigator's action (`chosen_window`), or, without these, what the navigator has done so far (`state`).
-/// What is known of all of them goes out (`facade`, `markers`).
+/// Selects the target among all known windows, by `~select_window`, a click in rviz (`clicked_point`), a goal
+/// of the navigator's action (`chosen_window`), or otherwise by the navigator's progress (`state`). Publishes
+/// all known windows (`facade`, `markers`).
 class WindowSelection {
  public:
-  /// \param tracker \param tf both outlive this
+  /// \param tracker \param tf both must outlive this
   WindowSelection(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
                   estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf,
                   const std::string& odom_frame)
@@ -40,7 +40,7 @@ class WindowSelection {
     diagnostics.add("windows", [this] { return health(); });
   }
 
-  /// After an image; sends a few times a second. \param markers where rviz looks
+  /// Call after each image; publishes a few times a second. \param markers topic of the markers
   void publish(const ros::Time& stamp, ros::Publisher& markers) {
     const double now_sec = steadyNowSec();
     const std::uint32_t target = tracker_.facade().targetId();
@@ -49,7 +49,7 @@ class WindowSelection {
     if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
   }
 
-  /// At once, to who hears of windows only now and then: after all have been forgotten.
+  /// Publishes at once, after all windows were forgotten, because the regular messages are rare.
   void tellAnew(const ros::Time& stamp) {
     last_click_.clear();
     tell(stamp);
@@ -77,7 +77,7 @@ class WindowSelection {
   void receiveChoice(const std_msgs::UInt32& message) {
     const facade::Answer answer = tracker_.selectWindow(message.data);
     ROS_INFO("chosen by a goal: %s", answer.message.c_str());
-    if (answer.success) published_sec_ = -1.0;  // whoever waits for it hears of it with the next image
+    if (answer.success) published_sec_ = -1.0;  // publishes the choice with the next image
   }
 
   void receiveClick(const geometry_msgs::PointStamped& message) {
@@ -117,7 +117,7 @@ class WindowSelection {
   ros::ServiceServer select_;
   double published_sec_ = -1.0;  // on the steady clock
   std::uint32_t published_target_ = 0;
-  std::string last_click_;  // what became of it
+  std::string last_click_;  // result of the last click
 };
 
 }  // namespace window_ingress::adapters

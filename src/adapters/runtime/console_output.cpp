@@ -15,7 +15,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-// It must not hold open what others take for closed when the node has died.
+// Otherwise this process would keep open what others expect to close when the node dies.
 void closeAllBut(int one, int other) {
   DIR* const all = opendir("/proc/self/fd");
   if (all == nullptr) return;
@@ -31,7 +31,7 @@ void ignoreSignals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTTOU}) std::signal(number, SIG_IGN);
 }
 
-// Whoever has the descriptor, too, may have set it not to wait.
+// Another owner may have made the descriptor non-blocking.
 bool mayTryAgain(int descriptor) {
   if (errno == EINTR) return true;
   if (errno != EAGAIN) return false;
@@ -40,7 +40,7 @@ bool mayTryAgain(int descriptor) {
   return true;
 }
 
-// What cannot be written, to a full disk or a closed terminal, is lost.
+// Output that cannot be written (full disk, closed terminal) is lost.
 void writeAll(int descriptor, const char* data, ssize_t size) {
   while (size > 0) {
     const ssize_t written = write(descriptor, data, static_cast<size_t>(size));
@@ -81,7 +81,7 @@ void decoupleConsole() {
     std::signal(SIGPIPE, SIG_IGN);
     decoupleOutput(STDOUT_FILENO);
     decoupleOutput(STDERR_FILENO);
-    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // as on a terminal, which it is no more
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line buffering, as on a terminal
   });
 }
 

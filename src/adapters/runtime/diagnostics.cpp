@@ -13,12 +13,12 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kPeriodSec = 1.0;  // of messages while nothing changes
+constexpr double kPeriodSec = 1.0;  // period of messages while nothing changes
 constexpr double kLookSec = 0.2;
 constexpr double kUnhealthyClockSec = 1.0;
-// After the start, or the first time on /clock: neighbours come up, nothing is said to be wrong.
+// After the start, or the first time on /clock: other nodes are starting, so nothing is reported as wrong.
 constexpr double kGraceSec = 3.0;
-constexpr double kClockGraceSec = 15.0;  // for /clock itself: a bag begins when everything is up
+constexpr double kClockGraceSec = 15.0;  // for /clock itself: a bag begins after all nodes have started
 
 Health consoleHealth() {
   if (!consoleIsStuck()) return {};
@@ -27,8 +27,8 @@ Health consoleHealth() {
           "there, not in /rosout"};
 }
 
-constexpr double kQuietSec = 5.0;   // between two warnings about one topic
-constexpr double kSmoothing = 0.1;  // of the period of messages
+constexpr double kQuietSec = 5.0;   // pause between two warnings about one topic
+constexpr double kSmoothing = 0.1;  // of the measured message period
 
 }  // namespace
 
@@ -89,7 +89,7 @@ void Diagnostics::look() {
   updater_.force_update();
 }
 
-// True if something else is the matter than before.
+// True if the level or the text, numbers aside, has changed.
 bool Diagnostics::lookAt(const std::string& name, Item& item) {
   const Health::Level before = item.now.level;
   item.now = item.check();

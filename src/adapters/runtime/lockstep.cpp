@@ -6,7 +6,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kLinkPeriodSec = 0.02;  // links to other nodes come up without a message
+constexpr double kLinkPeriodSec = 0.02;  // connections to other nodes come up without a message
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Lockstep::check() {
 }
 
 StampLimits limitsFor(bool lockstep, const StampLimits& limits) {
-  constexpr double kAnySec = 1e9;  // before its first message a node's clock reads zero
+  constexpr double kAnySec = 1e9;  // a node's clock reads zero before its first message
   return lockstep ? StampLimits{60.0, kAnySec} : limits;
 }
 

@@ -10,19 +10,19 @@
 
 namespace window_ingress::adapters {
 
-/// A node's side of lockstep with the simulated world: its work is done once for each step, when all that the
-/// world sent before has come, in whatever order. Simulated time only.
+/// A node's side of lockstep with the simulated world: the node works once per step, when everything that the
+/// world has sent before has arrived, in any order. Simulated time only.
 class Lockstep {
  public:
   using Step = window_ingress::LockstepStep;
 
-  /// \param complete whether everything that the step names, and what other nodes make of it, has come
-  /// \param work what the node does in this step
-  /// \throws InputError without use_sim_time: on a real vehicle nothing may wait for a simulated world
+  /// \param complete whether all messages of the step, and what other nodes derive from them, have arrived
+  /// \param work the node's work in this step
+  /// \throws InputError without use_sim_time: a node on a real vehicle must not wait for a simulated world
   Lockstep(ros::NodeHandle& nh, Diagnostics& diagnostics, std::function<bool(const Step&)> complete,
            std::function<void(const Step&)> work);
 
-  void check();  ///< to be called whenever something has come
+  void check();  ///< call after each message
 
  private:
   std::function<bool(const Step&)> complete_;
@@ -32,10 +32,10 @@ class Lockstep {
   ros::SteadyTimer timer_;
 };
 
-/// In lockstep the clock of a node may be read early or late by a little: it must not decide about messages.
+/// In lockstep a node's clock may be slightly early or late: it must not decide about messages.
 StampLimits limitsFor(bool lockstep, const StampLimits& limits);
 
-/// How many messages may wait for a callback: in lockstep none may be lost.
+/// Queue length of a subscriber: in lockstep no message may be lost.
 inline int queueFor(bool lockstep, int queue) { return lockstep ? 1000 : queue; }
 
 }  // namespace window_ingress::adapters

@@ -10,7 +10,7 @@ namespace {
 using parameters::Field;
 using XmlRpc::XmlRpcValue;
 
-// XmlRpcValue is read by conversions that are not const.
+// Conversions of XmlRpcValue are not const.
 std::string kindOf(XmlRpcValue& value);
 
 bool take(XmlRpcValue& from, double& value) {
@@ -58,7 +58,7 @@ std::string kindOf(XmlRpcValue& value) {
   }
 }
 
-/// Walks over a tree, and knows which names there may be.
+/// Walks over a tree of parameters and knows the permitted names.
 class TreeReader {
  public:
   TreeReader(const std::string& name_space, const std::vector<Field>& fields)

@@ -16,18 +16,18 @@
 namespace window_ingress::adapters {
 
 /// Fills the fields from the tree below one namespace. Missing parameters keep their defaults; a double may
-/// be given as an int. \param others names that are read by others, and no fault \return everything that is
-/// wrong: wrong types, numbers out of range, names that nobody asked for
+/// be given as an int. \param others permitted names that other code reads \return all faults: wrong types,
+/// numbers out of range, unknown names
 std::vector<std::string> readTree(const std::string& name_space, XmlRpc::XmlRpcValue tree,
                                   const std::vector<parameters::Field>& fields,
                                   const std::set<std::string>& others = {});
 
-/// The same of all parameters below the namespace of `nh`. \throws InputError if there stands anything but
-/// parameters
+/// Fills the fields from all parameters below the namespace of `nh`. \throws InputError if that is not a
+/// namespace
 std::vector<std::string> readFields(const ros::NodeHandle& nh, const std::vector<parameters::Field>& fields,
                                     const std::set<std::string>& others = {});
 
-/// \throws InputError, one line that names each fault, if there are any: the node must not start
+/// \throws InputError with one line that names each fault, if there are any: the node must not start
 void refuseFaulty(const std::vector<std::string>& faults);
 
 /// Reads the parameters of one node. \throws InputError
@@ -38,8 +38,8 @@ Params readParameters(const ros::NodeHandle& pnh) {
   return params;
 }
 
-/// The same, and what all nodes know of the vehicle: `vehicle`, beside the nodes. \throws InputError that
-/// says what is wrong in both
+/// Reads the parameters of one node and the common ones of the vehicle (`vehicle`, beside the nodes). \throws
+/// InputError that lists the faults of both
 template <typename Params>
 Params readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& pnh,
                       navigation::VehicleParams& vehicle, const std::set<std::string>& others = {}) {

@@ -1,5 +1,5 @@
-/// Parameter structs and dynamic_reconfigure, by the same `visit` as everything else. The names of nested
-/// fields are joined with '_': `edges/floor` is `edges_floor`.
+/// Parameter structs and dynamic_reconfigure, by the same `visit` as yaml and rosparam. Names of nested
+/// fields are joined with '_': `edges/floor` becomes `edges_floor`.
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>
@@ -16,7 +16,7 @@
 
 namespace window_ingress::adapters {
 
-/// The name of a field there.
+/// The name of a field in dynamic_reconfigure.
 inline std::string joinedName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
@@ -40,7 +40,7 @@ dynamic_reconfigure::Config toConfigMsg(Params params) {
   return message;
 }
 
-/// The struct as the message has it; what that does not hold keeps its value.
+/// The struct with the message's values; fields missing in the message keep their values.
 template <typename Params>
 Params fromConfigMsg(const dynamic_reconfigure::Config& message, Params params) {
   const auto find = [](const auto& list, const std::string& name, auto& value) {
@@ -56,8 +56,8 @@ Params fromConfigMsg(const dynamic_reconfigure::Config& message, Params params) 
   return params;
 }
 
-/// A generated configuration that is not cut to its ranges before anybody sees it: what is out of range is
-/// then refused, and said, by whoever has to live by it.
+/// A generated configuration that is not clamped to its ranges: `apply` must see a value out of range to
+/// refuse it.
 template <typename Config>
 struct Unclamped : Config {
   Unclamped() = default;
@@ -65,11 +65,11 @@ struct Unclamped : Config {
   void __clamp__() const {}
 };
 
-/// Serves `Params` below the private name `tuning`. A change is taken whole or not at all.
+/// Serves `Params` below the private name `tuning`. A change is applied completely or not at all.
 template <typename Config, typename Params>
 class Reconfigure {
  public:
-  /// \param apply is given each new struct; if it throws, the old one stays
+  /// \param apply called with each new struct; if it throws, the old one stays
   Reconfigure(const ros::NodeHandle& pnh, const Params& initial, std::function<void(const Params&)> apply)
       : params_(initial), apply_(std::move(apply)), server_(mutex_, ros::NodeHandle(pnh, "tuning")) {
     server_.updateConfig(toConfig(params_, Config::__getDefault__()));

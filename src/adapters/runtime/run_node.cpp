@@ -18,13 +18,13 @@ volatile std::sig_atomic_t stop_requested = 0;
 
 void requestStop(int) { stop_requested = 1; }
 
-// roscpp's own handler closes the topics before the node can send anything.
+// roscpp's own handler closes the topics before the node can send its last messages.
 void catchSignals() {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
 }
 
-// roscpp would wait for a master without listening to signals.
+// roscpp's own wait for a master ignores signals.
 bool waitForMaster() {
   if (ros::master::check()) return true;
   std::fprintf(stderr, "waiting for a ROS master at %s\n", ros::master::getURI().c_str());
@@ -38,8 +38,7 @@ void spinUntilStopped() {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLongestWaitSec));
 }
 
-// What keeps a node from starting has to stand out among the lines of all others: roslaunch goes on without
-// it.
+// The reason must stand out among the other nodes' lines, because roslaunch continues without this node.
 std::unique_ptr<Node> makeOrSayWhyNot(const std::string& name, const MakeNode& make, ros::NodeHandle& nh,
                                       ros::NodeHandle& pnh) {
   try {

@@ -1,4 +1,4 @@
-/// The main of every node: parameters refused with one line, signals answered within two seconds, exit codes.
+/// The main of every node: one line for refused parameters, signals answered within 2 s, exit codes.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -9,22 +9,22 @@
 
 namespace window_ingress::adapters {
 
-/// What a main runs.
+/// A node that `runNode` runs.
 class Node {
  public:
   virtual ~Node() = default;
-  /// Called once after SIGINT or SIGTERM, while topics are still up: leave the vehicle at rest. At most one
-  /// second.
+  /// Called once after SIGINT or SIGTERM, while topics still exist: must leave the vehicle at rest, within
+  /// one second.
   virtual void stop() {}
 };
 
 using MakeNode = std::function<std::unique_ptr<Node>(ros::NodeHandle& nh, ros::NodeHandle& pnh)>;
 
-/// Runs one node until it is told to stop.
+/// Runs one node until it is stopped.
 /// \return 0 after SIGINT, SIGTERM or a shutdown; 2 if the node refused to start, after one line on stderr
 int runNode(int argc, char** argv, const std::string& name, const MakeNode& make);
 
-/// The same for a class with a constructor from (nh, pnh).
+/// As above, for a class with a constructor from (nh, pnh).
 template <typename Class>
 int runNode(int argc, char** argv, const std::string& name) {
   return runNode(argc, argv, name,

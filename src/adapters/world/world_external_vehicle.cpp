@@ -1,4 +1,4 @@
-// The world beside a vehicle that is simulated elsewhere, by whose odometry time runs.
+// The world for an external vehicle, whose odometry drives time.
 #include <deque>
 
 #include "adapters/world/world_node.hpp"
@@ -7,10 +7,10 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kMaxSilenceSec = 5.0;  // after a longer one it is another flight
-constexpr double kMaxLateSec = 0.5;     // a stamp that goes back further begins another flight
-constexpr std::size_t kMaxImages = 2;   // that are drawn of those which fall due at once
-constexpr long kForgivenImages = 30;    // while the house is built, the vehicle flies on
+constexpr double kMaxSilenceSec = 5.0;  // a longer gap begins another flight
+constexpr double kMaxLateSec = 0.5;     // a larger step back begins another flight
+constexpr std::size_t kMaxImages = 2;   // number drawn of the images that are due at once
+constexpr long kForgivenImages = 30;    // the vehicle flies on while the house is built
 
 }  // namespace
 
@@ -35,8 +35,8 @@ void WorldNode::begin(const navigation::VehicleState& vehicle) {
   running_ = true;
 }
 
-// Time is that of the stamps; where none come it stands still, and no image shows what nobody said. It begins
-// with the first sample that comes once the house stands: building it may take longer than a silence may.
+// Time follows the stamps and stands still without them, so no image shows a guessed pose. Time begins with
+// the first sample after the house is built, which may take longer than the longest silence.
 void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
   const bool follows = followed_sec_ >= 0.0;
@@ -50,7 +50,7 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
   while (world_->timeSec() + simulation::World::kStepSec <= until_sec + 1e-9) stepOnce();
 }
 
-// An external vehicle waits for nobody: what a slow machine cannot draw in time is lost, not late.
+// An external vehicle does not wait: images that a slow machine cannot draw in time are dropped, not delayed.
 void WorldNode::deliverNewestImages() {
   while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
   std::deque<simulation::Exposure> due;

@@ -13,7 +13,7 @@
 
 namespace window_ingress::adapters {
 
-/// \throws InputError if the scenario holds what lockstep cannot do
+/// \throws InputError if the scenario uses a feature that lockstep does not support
 inline void refuseInLockstep(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile == "external")
     throw InputError("lockstep: the time of an external vehicle is its own; set lockstep to false");
@@ -25,10 +25,10 @@ inline void refuseInLockstep(const simulation::Scenario& scenario) {
                        " there, its fault would do nothing; set lockstep to false");
 }
 
-/// The world's side of lockstep: says where it stands, and knows when the vehicle has answered.
+/// The world's side of lockstep: publishes its steps and knows when the vehicle has answered.
 ///
-/// An answer is a state (if anybody publishes states) and, unless the state says that none is streamed, a
-/// setpoint, both stamped with the time of the step or later.
+/// An answer is a state (if states are published) and a setpoint (unless the state says that none is
+/// streamed), both stamped with the step's time or later.
 class WorldLockstep {
  public:
   WorldLockstep(ros::NodeHandle& nh, const std::string& camera_frame, double timeout_sec)
@@ -37,7 +37,7 @@ class WorldLockstep {
     step_.header.frame_id = camera_frame;
   }
 
-  window_ingress::LockstepStep& sent() { return step_; }  ///< to be kept up to date with what was sent
+  window_ingress::LockstepStep& sent() { return step_; }  ///< to be updated with everything sent
   void ask(const ros::Time& now) {
     step_.header.stamp = now;
     asked_sec_ = steadyNowSec();
@@ -50,8 +50,8 @@ class WorldLockstep {
 
   void hearState(const window_ingress::IngressState& state) { state_ = state; }
   void hearSetpoint(const ros::Time& stamp) { setpoint_stamp_ = stamp; }
-  /// Whether the world may go on: answered, or waited too long (counted). \param may_give_up before the first
-  /// answer the nodes may still be coming up
+  /// Whether the world may continue: answered, or a timeout (counted). \param may_give_up whether to time out
+  /// before the first answer, while the nodes may still be starting
   bool goesOn(bool states_are_published, bool may_give_up) {
     if (!asking_) return false;
     const bool done = answered(states_are_published);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kTickSec = 0.005;
 constexpr double kStartSec = 100.0;  // a stamp of zero means unstamped
 constexpr double kClockRateHz = 100.0;
-constexpr double kMaxDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
+constexpr double kMaxDebtSec = 0.05;  // time that the machine falls behind by more is dropped, not caught up
 constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
 
@@ -53,7 +53,7 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   timer_ = createCatchingTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
 }
 
-// What somebody has found out about this camera, or else the truth.
+// A calibration of the camera (camera_info_url, set_camera_info), or else the truth.
 void WorldNode::calibrate(const simulation::Scenario& scenario) {
   if (!params_.camera_info_url.empty() && camera_info_.isCalibrated()) return;
   camera_info_.setCameraInfo(toMsg(scenario.camera.model()));
@@ -114,7 +114,7 @@ void WorldNode::tick() {
   }
 }
 
-// The first step asks at time zero: once it is answered, all nodes are there and hear each other.
+// The first step asks at time zero: its answer shows that all nodes run and are connected.
 void WorldNode::tickLockstep() {
   if (!running_ && mayRun()) {
     running_ = true;
@@ -127,7 +127,7 @@ void WorldNode::tickLockstep() {
   if (lockstep_->goesOn(state_subscriber_.getNumPublishers() > 0, may_give_up)) advanceToNextStep();
 }
 
-// Images leave when the vehicle has answered to all that came before them.
+// Images are sent after the vehicle has answered everything before them.
 void WorldNode::advanceToNextStep() {
   if (answer_) world_->command(*answer_);
   answer_.reset();
@@ -138,7 +138,7 @@ void WorldNode::advanceToNextStep() {
   lockstep_->ask(now());
 }
 
-// The shutter opens for the first time at the end of the first step.
+// The shutter first opens at the end of the first step.
 bool WorldNode::imageIsDue() {
   const double exposed_sec = world_->timeSec() - world_->scenario().camera.latency_sec;
   return exposed_sec + 1e-9 >= kStepSec && images_->due(exposed_sec);
@@ -183,7 +183,7 @@ void WorldNode::deliver(const simulation::CameraFrame& frame) {
   lockstep_->sent().has_image = true;
 }
 
-// What set_camera_info has set, spoilt as the world's own calibration is.
+// Sends the calibration of set_camera_info, with the same errors as the world's own.
 void WorldNode::sendCalibration(const simulation::CalibrationSample& sample) {
   sensor_msgs::CameraInfo info = camera_info_.getCameraInfo();
   const double zoom = sample.camera.fx / world_->camera().fx;
@@ -233,7 +233,7 @@ void WorldNode::receiveState(const window_ingress::IngressStateConstPtr& message
 bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
   T_odom_start_.reset();
-  if (isExternal()) running_ = false;  // until the vehicle is heard of again
+  if (isExternal()) running_ = false;  // until the vehicle is heard again
   restart();
   response.success = true;
   response.message = "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) +
@@ -242,7 +242,7 @@ bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-// What was seen in the world before is not there any more. \return what to add to the answer
+// Makes other nodes forget the previous world. \return text to append to the answer
 std::string WorldNode::makeOthersForget() {
   std::string said;
   for (ros::ServiceClient* client : {&detector_reset_, &pose_reset_}) {

@@ -26,10 +26,10 @@ namespace window_ingress::adapters {
 
 using configuration::WorldNodeParams;
 
-/// `simulation::World` on topics; stands in for vehicle, camera and Gazebo. Runs in one thread.
+/// `simulation::World` on topics; replaces vehicle, camera and Gazebo. Runs in one thread.
 ///
-/// Its time runs by the steady clock, or step by step in lockstep with the vehicle, or, when the vehicle is
-/// external, by the stamps of `vehicle_odom`.
+/// Its time follows the steady clock, the steps of lockstep, or, for an external vehicle, the stamps of
+/// `vehicle_odom`.
 class WorldNode : public Node {
  public:
   WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
@@ -74,21 +74,21 @@ class WorldNode : public Node {
   Diagnostics diagnostics_;
   std::optional<TopicHealth> command_health_, vehicle_health_;
   std::unique_ptr<simulation::World> world_;
-  Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // as the odometry last said
-  std::optional<Eigen::Isometry3d> T_odom_start_;              // if the start lies where the vehicle was
-  std::optional<simulation::VelocityCommand> answer_;          // in lockstep: obeyed when time goes on
-  double epoch_sec_;                                           // stamp of the world's time zero
+  Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // from the latest odometry
+  std::optional<Eigen::Isometry3d> T_odom_start_;      // set if the world starts at the vehicle's place
+  std::optional<simulation::VelocityCommand> answer_;  // in lockstep: applied when time continues
+  double epoch_sec_;                                   // stamp at the world's time zero
   double clock_due_sec_ = 0.0;
   double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
   double began_sec_ = 0.0, followed_sec_ = -1.0;
-  long images_due_ = 0, images_lost_ = 0;  // beside an external vehicle
+  long images_due_ = 0, images_lost_ = 0;  // for an external vehicle
   bool running_ = false;
 
   camera_info_manager::CameraInfoManager camera_info_;
   WorldPublishers publishers_;
   WorldReferee referee_;
   std::optional<WorldLockstep> lockstep_;
-  std::optional<simulation::Periodic> truth_due_, images_;  // the latter for lockstep
+  std::optional<simulation::Periodic> truth_due_, images_;  // images_ is for lockstep
   ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
   ros::ServiceServer reset_, inject_;
   ros::ServiceClient detector_reset_, pose_reset_;

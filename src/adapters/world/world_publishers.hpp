@@ -19,10 +19,10 @@
 
 namespace window_ingress::adapters {
 
-/// Everything that the world says on topics, but for its referee's verdict.
+/// All topics of the world, except for the referee's verdict.
 class WorldPublishers {
  public:
-  /// \param complete nothing may be lost where a subscriber is slow
+  /// \param complete no message may be lost at a slow subscriber
   WorldPublishers(ros::NodeHandle& nh, const FrameNames& frames, const std::string& camera_frame,
                   bool complete)
       : frames_(frames), camera_frame_(camera_frame), complete_(complete) {
@@ -36,7 +36,7 @@ class WorldPublishers {
     target_chosen_ = nh.advertise<std_msgs::Bool>("scenario/target_chosen", 1, true);
   }
 
-  /// What the vehicle says, and time; not for one that is simulated elsewhere, which says it itself.
+  /// Advertises the vehicle's topics and the clock; not for an external vehicle, which publishes them itself.
   void advertiseVehicle(ros::NodeHandle& nh) {
     const int newest = complete_ ? kCompleteQueue : 1, samples = complete_ ? kCompleteQueue : kSampleQueue;
     clock_ = nh.advertise<rosgraph_msgs::Clock>("/clock", newest);
@@ -50,7 +50,7 @@ class WorldPublishers {
     clock_.publish(message);
   }
 
-  /// The image, if somebody listens, and the truth that belongs to it. \return whether it was sent
+  /// Sends the image, if it has subscribers, and its truth. \return whether the image was sent
   bool frame(const simulation::CameraFrame& frame, const ros::Time& stamp) {
     const std_msgs::Header stamped = headerOf(stamp, camera_frame_);
     truth_in_camera_.publish(toPoseStampedMsg(frame.T_camera_window, stamped));
@@ -76,14 +76,14 @@ class WorldPublishers {
     imu_.publish(toImuMsg(sample, stamp, frames_));
   }
 
-  /// Of the vehicle, and of a window that moves.
+  /// True state of the vehicle, and of a window that moves.
   void truth(const simulation::World& world, const ros::Time& stamp) {
     truth_odom_.publish(toOdometryMsg(world.truth(), stamp, frames_));
     if (world.scenario().sway.amplitude_m > 0.0) truthOfWindow(world, stamp);
   }
 
-  /// What does not change during a flight: camera's mounting, the window, the reference image, and whether
-  /// the operator is to choose the target before the mission starts.
+  /// Constants of a flight: the camera's mounting, the window, the reference image, and whether the operator
+  /// is to choose the target before the mission starts.
   void facts(const simulation::World& world, const ros::Time& stamp) {
     static_tf_.sendTransform(mountingOf(world.T_base_camera(), stamp, frames_, camera_frame_));
     truthOfWindow(world, stamp);
@@ -107,7 +107,7 @@ class WorldPublishers {
   FrameNames frames_;
   std::string camera_frame_;
   bool complete_;
-  bool twist_in_odom_ = false;  // as some simulators say it, against REP 147
+  bool twist_in_odom_ = false;  // as in some simulators, against REP 147
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;
   ros::Publisher clock_, image_, info_, odom_, imu_, reference_, target_chosen_;

@@ -69,8 +69,7 @@ void WorldReferee::judge(const simulation::World& world, const ros::Time& now) {
   write();
 }
 
-// A vehicle that waits for its mission uses up no time; one that says nothing of its state flies from the
-// start.
+// A vehicle that waits for its mission uses up no time; one without state messages flies from the start.
 double WorldReferee::limitBegins(const simulation::World& world) const {
   if (mission_start_sec_ >= 0.0) return mission_start_sec_;
   return heard_of_this_flight_ ? world.timeSec() : 0.0;

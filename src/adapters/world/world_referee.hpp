@@ -10,18 +10,18 @@
 
 namespace window_ingress::adapters {
 
-/// The referee's verdict on a topic and in a file. The first outcome stands: what happens afterwards is no
-/// longer the flight.
+/// The referee's verdict on a topic and in a file. The first outcome counts; later events are not part of the
+/// flight.
 class WorldReferee {
  public:
-  /// \param file json, written when there is an outcome and at the end; empty: none
+  /// \param file json, written at an outcome and at the end; empty: no file
   WorldReferee(ros::NodeHandle& nh, const std::string& file);
 
   void restart();
   void hear(const window_ingress::IngressState& state, const simulation::World& world);
-  /// To be called after each step of the world.
+  /// Call after each step of the world.
   void judge(const simulation::World& world, const ros::Time& now);
-  void finish() const;  ///< the node ends
+  void finish() const;  ///< call when the node ends
 
  private:
   double limitBegins(const simulation::World& world) const;
@@ -31,12 +31,12 @@ class WorldReferee {
   std::string file_;
   ros::Publisher publisher_;
   simulation::Claim claim_ = simulation::Claim::kNone;
-  bool heard_of_this_flight_ = false;  // before it, PASSED and ABORTED are what became of an earlier one
+  bool heard_of_this_flight_ = false;  // before it, PASSED and ABORTED belong to an earlier flight
   window_ingress::FlightVerdict said_;
   double mission_start_sec_ = -1.0, judge_due_sec_ = 0.0, verdict_due_sec_ = 0.0;  // in the world's time
 };
 
-/// For the file.
+/// The content of the file.
 std::string toJson(const window_ingress::FlightVerdict& verdict);
 
 }  // namespace window_ingress::adapters
