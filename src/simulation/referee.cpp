@@ -108,7 +108,7 @@ void Referee::watchStanding(const Sample& now, double speed_mps) {
 }
 
 Verdict Referee::judge(Claim claim, double mission_start_sec) const {
-  const auto sinceStart = [&](double sec) { return sec - mission_start_sec; };  // as all times that are told
+  const auto sinceStart = [&](double sec) { return sec - mission_start_sec; };  // as all reported times
   const bool crossed_inside = crossing_ && crossing_->inside;
   if (touched())
     return {Outcome::kCollision,

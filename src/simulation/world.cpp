@@ -80,7 +80,7 @@ const VehicleTruth& World::truth() const { return external() ? followed_.truth()
 
 VehicleTruth World::besideHouse() const { return sway_.besideHouse(truth(), time_sec_); }
 
-// The referee believes no velocity that a vehicle reports of itself.
+// The referee does not trust a velocity reported by a vehicle.
 VehicleTruth World::judged() const {
   VehicleTruth judged = truth();
   if (external()) judged.velocity_odom_mps = followed_.flownVelocity();
@@ -112,14 +112,14 @@ void World::expose() {
   if (const auto arrival_sec = transport_.arrivalOf(time_sec_)) exposures_.push(*arrival_sec, exposure);
 }
 
-// In odom, where z = 0 is the ground.
+// Height in odom, where z = 0 is the ground.
 double World::restHeight() const {
   const double centre_m = T_odom_window_.translation().z();
   const Eigen::Vector3d position = T_odom_window_.inverse() * besideHouse().T_odom_base.translation();
   return centre_m + topBelow(scene_.obstacles, position, scene_.ground_z_m) + scenario_.vehicle.half_height_m;
 }
 
-// What the sensors deliver by now sets out on its way out of the world.
+// Passes the sensors' samples that are due to the fault lines.
 void World::deliver() {
   while (auto sample = odometry_.take(time_sec_)) {
     sample->T_odom_base.translation() += faults_.slideAt(time_sec_);

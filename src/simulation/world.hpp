@@ -23,9 +23,9 @@
 
 namespace window_ingress::simulation {
 
-/// An image as the camera delivers it.
+/// An image as delivered by the camera.
 struct CameraFrame {
-  double stamp_sec = 0.0;  ///< of the exposure
+  double stamp_sec = 0.0;  ///< time of the exposure
   cv::Mat image;  ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`; empty: not drawn
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();  ///< truth at the exposure
 };
@@ -33,58 +33,57 @@ struct CameraFrame {
 /// House, vehicle, sensors and referee of one scenario and seed. Deterministic: the same calls give the same
 /// bytes.
 ///
-/// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became
-/// due and forgets it, one at a time and in order: ask until there is none, they may come in bursts. An
-/// image is drawn only when it is taken. A vehicle that touched anything solid stops there, with its motors
-/// off, and falls. Not for use from several threads, but several worlds may live in several threads.
+/// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` returns what has become
+/// due, one item at a time and in order: call until empty, because items may come in bursts. An image is
+/// drawn only when it is taken. A vehicle that touches anything solid stops there with its motors off, and
+/// falls. One world must not be used from several threads, but several worlds may live in several threads.
 class World {
  public:
-  /// Whether frames have images. Without, no renderer is needed, and nothing that becomes of an image
-  /// matters: light, noise, faults that spoil it.
+  /// Whether frames have images. Without images no renderer is needed, and nothing that only changes images
+  /// has an effect: light, noise, faults that spoil images.
   enum class Images { kDrawn, kNone };
 
-  /// \throws InputError if the scenario cannot be built, std::runtime_error if there is no software
-  /// renderer.
+  /// \throws InputError if the scenario cannot be built, std::runtime_error if there is no software renderer.
   World(const Scenario& scenario, std::uint32_t seed, Images images = Images::kDrawn);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Moves the world on by one physics step (`kStepSec`).
+  /// Advances the world by one physics step (`kStepSec`).
   void advance();
   static constexpr double kStepSec = 0.0025;
 
-  /// In the axes of the odometry as the vehicle knows it, drift included.
+  /// Command in the axes of the vehicle's odometry, drift included.
   void command(const VelocityCommand& command);
 
-  /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
-  /// How fast it is, the referee sees by its places; the twist only blurs images.
-  /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
+  /// For `vehicle: external`: gives the vehicle's state at this time, towards which `advance` moves it
+  /// evenly. The referee computes the speed from positions; the twist only blurs images.
+  /// \param stamp_sec later than in the previous call; the first call also sets the place until then
   void follow(const VehicleTruth& truth, double stamp_sec) { followed_.follow(truth, stamp_sec); }
 
   double timeSec() const { return time_sec_; }
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
-  /// The same in two steps, for whoever cannot draw every image in time.
+  /// `takeFrame` in two steps, for callers that cannot draw every image in time.
   std::optional<Exposure> takeExposure() { return images_.take(time_sec_, acting("image")); }
   CameraFrame draw(const Exposure& exposure);
   std::optional<OdometrySample> takeOdometry() { return odometry_line_.take(time_sec_, acting("odom")); }
   std::optional<ImuSample> takeImu() { return imu_line_.take(time_sec_, acting("imu")); }
-  /// What camera_info says: one sample an image, however the image fares. May be spoilt, see `validate`.
+  /// camera_info: one sample an image, whatever its faults. May be invalid, see `PinholeCamera::validate`.
   std::optional<CalibrationSample> takeCalibration() {
     return calibrations_.take(time_sec_, acting("camera_info"));
   }
-  /// The odometry as the source of the transform odom -> base_link.
+  /// The odometry as source of the transform odom -> base_link.
   std::optional<OdometrySample> takeTransform() { return transforms_.take(time_sec_, acting("tf")); }
-  /// What a clock says that is asked now, or nothing.
+  /// The present reading of the clock, or empty.
   std::optional<double> readClock();
 
-  /// From now on. \throws InputError if there can be no such fault
+  /// Adds a fault that begins now. \throws InputError if the fault is impossible
   void inject(FaultParams fault);
 
   const geometry::PinholeCamera& camera() const { return model_; }
   Eigen::Isometry3d T_base_camera() const { return scenario_.camera.toldT_base_camera(); }
-  Eigen::Isometry3d T_odom_window() const;  ///< truth, of the target: the opening's front inner border
-  /// Where the odometry's frame has drifted to: `p_reported = drift * p_true`.
+  Eigen::Isometry3d T_odom_window() const;  ///< true pose of the target: the opening's front inner border
+  /// Drift of the odometry's frame: `p_reported = drift * p_true`.
   Eigen::Isometry3d odometryDrift() const { return odometry_.drift(); }
   geometry::OpeningSize opening() const { return scenario_.opening(); }
   const Scenario& scenario() const { return scenario_; }
@@ -107,7 +106,7 @@ class World {
   std::uint32_t seed_;
   Scene scene_;
   geometry::PinholeCamera model_;
-  Eigen::Isometry3d T_base_camera_, T_odom_window_;  ///< the house at its resting place
+  Eigen::Isometry3d T_base_camera_, T_odom_window_;  ///< T_odom_window_: for the house at its resting place
   Sway sway_;
   std::unique_ptr<CameraSensor> camera_;  ///< null: no images
   Wind wind_;

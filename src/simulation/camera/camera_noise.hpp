@@ -11,8 +11,8 @@
 
 namespace window_ingress::simulation {
 
-/// Noise of a camera: of each channel of each pixel normal and independent, the standard deviation by its
-/// grey level sqrt(noise_grey^2 + shot_noise_grey^2 * grey / 255).
+/// Noise of a camera: normal, independent for each channel of each pixel. The standard deviation depends on
+/// the grey level: sqrt(noise_grey^2 + shot_noise_grey^2 * grey / 255).
 class CameraNoise {
  public:
   CameraNoise(const CameraParams& params, const cv::Size& size, std::uint32_t seed) : seed_(seed) {
@@ -34,7 +34,7 @@ class CameraNoise {
     }
   }
 
-  /// Depends on seed and index alone.
+  /// The noise depends on the seed and the index only.
   void addTo(cv::Mat& image, std::uint64_t index) const {
     if (brighter_.empty() && unit_.empty()) return;
     RandomStream random(seed_, "camera noise of picture " + std::to_string(index));
@@ -46,7 +46,7 @@ class CameraNoise {
   }
 
  private:
-  // The noise is larger than the image; each image takes it from elsewhere.
+  // The noise pattern is larger than the image; each image uses another part of it.
   static constexpr int kNoiseMargin_px = 97;
   static constexpr int kUnit = 32, kScale = 256;
 
@@ -62,9 +62,9 @@ class CameraNoise {
   }
 
   std::uint32_t seed_;
-  cv::Mat brighter_, darker_;  // the same for all grey levels: what is added, what is taken away
-  cv::Mat unit_;               // by grey level: CV_8SC3, in 1/32
-  int deviation_[256] = {};    // in 1/256
+  cv::Mat brighter_, darker_;  // noise if equal for all grey levels: to add, to subtract
+  cv::Mat unit_;               // pattern for noise by grey level: CV_8SC3, in 1/32
+  int deviation_[256] = {};    // by grey level, in 1/256
 };
 
 }  // namespace window_ingress::simulation

@@ -17,15 +17,15 @@
 
 namespace window_ingress::simulation {
 
-/// Makes of ideal renderings what a camera delivers: motion during the exposure, distortion, blur, brightness
-/// and colour, noise.
+/// Turns ideal renderings into a camera's images: motion during the exposure, distortion, blur, brightness,
+/// colour and noise.
 class CameraSensor {
  public:
   /// \throws as `Renderer`, `Lens` and `CameraParams::model`
   CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed);
 
-  /// The image number `index` of the flight; the noise depends on seed and index alone, automatic gains on
-  /// the images exposed before. The image is valid until the next call.
+  /// The image number `index` of the flight. Noise depends on the seed and the index only, automatic gains on
+  /// earlier exposures. The image is valid until the next call.
   cv::Mat expose(const CameraTruth& motion, std::uint64_t index, double stamp_sec);
 
  private:
@@ -33,19 +33,19 @@ class CameraSensor {
 
   double blur_px_;
   Lens lens_;
-  std::vector<std::unique_ptr<Renderer>> renderers_;  ///< one a plane of the lens
+  std::vector<std::unique_ptr<Renderer>> renderers_;  ///< one per plane of the lens
   Shutter shutter_;
   ExposureControl control_;
   CameraNoise noise_;
   cv::Mat ideal_, face_, image_;
 };
 
-/// When images arrive, and which ones do not.
+/// Delivery of images: arrival times and losses.
 class CameraTransport {
  public:
   CameraTransport(const CameraParams& params, std::uint32_t seed);
-  /// Of the next image, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::push` sees to it
-  /// that none overtakes another.
+  /// Arrival time of the next image, exposed at `stamp_sec`; empty if the image is lost. `DelayLine::push`
+  /// keeps the order.
   std::optional<double> arrivalOf(double stamp_sec);
 
  private:

@@ -8,8 +8,8 @@
 
 namespace window_ingress::simulation {
 
-/// Brightness and colour: gain and white balance, fixed or automatic with a lag. The automatic ones follow
-/// what the images before this one needed, exponentially in the logarithm of the gains.
+/// Brightness and colour: gain and white balance, fixed or automatic. The automatic ones follow the demand of
+/// earlier images with a lag, exponentially in the logarithm of the gains.
 class ExposureControl {
  public:
   explicit ExposureControl(const CameraParams& params)
@@ -18,7 +18,7 @@ class ExposureControl {
         gain_(params.gain),
         wanted_gain_(params.gain) {}
 
-  /// Of blue, green and red, for the image with this stamp, the light's colour included.
+  /// Gains of blue, green and red for the image with this stamp, including the light's colour.
   cv::Vec3d gainsAt(double stamp_sec) {
     const double part = 1.0 - std::exp(-std::max(0.0, stamp_sec - last_sec_) / params_.auto_exposure_sec);
     last_sec_ = stamp_sec;
@@ -31,7 +31,7 @@ class ExposureControl {
     return gains;
   }
 
-  /// What the image looks like before its gains, light's colour not included: mean of blue, green, red.
+  /// Mean of blue, green and red before the gains, without the light's colour.
   void observe(const cv::Vec3d& mean_grey) {
     const cv::Vec3d mean = mean_grey.mul(light_);
     if (std::min({mean[0], mean[1], mean[2]}) <= 0.0) return;

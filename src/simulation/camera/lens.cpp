@@ -23,7 +23,7 @@ bool isFisheye(const PinholeCamera& camera) { return camera.model == geometry::L
   throw std::invalid_argument("camera: distortion " + names + " " + why);
 }
 
-// Ideal pixels of the distorted ones, and which of those the lens does not see (255).
+// Ideal pixel of each distorted pixel, and which distorted pixels the lens does not see (255).
 struct IdealPixels {
   cv::Mat map, unseen;
 };
@@ -46,7 +46,7 @@ IdealPixels idealPixels(const PinholeCamera& camera) {
 
 using Bounds = Eigen::AlignedBox2d;
 
-// Of the focal lengths of `ideal`, just large enough for `bounds`, which become its pixels less `origin`.
+// A camera with `ideal`'s focal lengths, just large enough for `bounds` (its pixels plus `origin`).
 PinholeCamera around(const Bounds& bounds, PinholeCamera ideal, cv::Vec2f& origin) {
   const Eigen::Vector2d first = bounds.min().array().floor() - kMargin_px;
   ideal.cx -= first.x();
@@ -59,7 +59,7 @@ PinholeCamera around(const Bounds& bounds, PinholeCamera ideal, cv::Vec2f& origi
 
 constexpr std::size_t kFaces = 5;
 
-// From the optical frame to those of the faces ahead, right, left, below and above.
+// Rotations from the optical frame to the faces ahead, right, left, below and above.
 std::array<Eigen::Matrix3d, kFaces> cube() {
   const auto turned = [](double angle_rad, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix().transpose().eval();
@@ -75,7 +75,7 @@ std::size_t faceOf(const Eigen::Vector3d& ray) {
   return std::abs(x) >= std::abs(y) ? (x > 0.0 ? 1 : 2) : (y > 0.0 ? 3 : 4);
 }
 
-// The pixels of `map` that each face shows, in coordinates of its own; which face that is, in `face_of`.
+// Converts `map` to face coordinates; returns each face's part in use, and in `face_of` the face per pixel.
 std::array<Bounds, kFaces> spreadOverCube(const PinholeCamera& ideal, const cv::Mat& unseen, cv::Mat& map,
                                           cv::Mat& face_of) {
   const auto faces = cube();
@@ -96,7 +96,7 @@ std::array<Bounds, kFaces> spreadOverCube(const PinholeCamera& ideal, const cv::
   return bounds;
 }
 
-// In place of the pixels of `map` those of the ideal image, which is as large as the planes returned need.
+// Converts `map` to pixels of the ideal image, which is just large enough for the returned planes.
 std::vector<IdealPlane> planesOfCube(const PinholeCamera& ideal, const cv::Mat& unseen, cv::Mat& map) {
   cv::Mat face_of;
   const auto bounds = spreadOverCube(ideal, unseen, map, face_of);

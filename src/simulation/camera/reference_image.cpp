@@ -11,7 +11,7 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kMinDistance_m = 2.5;
-constexpr double kGreatestPart = 0.5;  // of the image's width or height that the opening may fill
+constexpr double kGreatestPart = 0.5;  // largest part of the image's width or height for the opening
 
 }  // namespace
 

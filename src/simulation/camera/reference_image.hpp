@@ -7,9 +7,9 @@
 
 namespace window_ingress::simulation {
 
-/// The target as an operator would have photographed it on the same day: square, sharp, open, with frame and
-/// surround, in the camera's exposure. It shows the target even where the wall or the window is closed by
-/// now. \param corners receives those of its opening in that image; may be null \throws std::runtime_error
+/// A photograph of the target as an operator would have taken it on the same day: frontal, sharp, open, with
+/// frame and surround, in the camera's exposure. It shows the target even if the wall or the window is closed
+/// now. \param corners receives the opening's corners in that image; may be null \throws std::runtime_error
 /// if there is no software renderer
 cv::Mat referenceImage(const Scenario& scenario, geometry::Quadrilateral* corners);
 

@@ -9,15 +9,15 @@
 
 namespace window_ingress::simulation {
 
-/// Images by a camera that moves while it takes them: the mean of several over the time in which the
-/// shutter is open, row by row as they are read out. The middle row's middle of exposure is the motion's
-/// stamp. Few images are drawn when little moves, one when nothing does.
+/// Images of a moving camera: the mean of several renderings over the exposure time, row by row with the
+/// readout. The motion's stamp is the middle of the exposure of the middle row. The number of renderings
+/// grows with the motion; a static scene needs one.
 class Shutter {
  public:
   static constexpr int kMaxImages = 6;
   static constexpr int kMaxBands = 24;
-  static constexpr double kShiftOfImage_px = 1.5;  ///< between two images
-  static constexpr double kShiftOfBand_px = 0.75;  ///< between two bands of rows
+  static constexpr double kShiftOfImage_px = 1.5;  ///< image motion between two renderings
+  static constexpr double kShiftOfBand_px = 0.75;  ///< image motion between two bands of rows
 
   Shutter(double exposure_sec, double readout_sec) : exposure_sec_(exposure_sec), readout_sec_(readout_sec) {}
 

@@ -8,13 +8,13 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kSnap_px =
-    0.02;  // OpenGL moves vertices to a grid of 1/256 px: sides may pass beyond a centre
+    0.02;  // OpenGL snaps vertices to a grid of 1/256 px: sides may pass on the other side of a centre
 
 // Integral of clamp(x, 0, 1).
 double ramp(double x) { return x <= 0.0 ? 0.0 : x >= 1.0 ? x - 0.5 : 0.5 * x * x; }
 
-// Part of the unit interval before a line that crosses it at `middle` and moves by `slope` from one end of
-// the row to the other.
+// Part of the unit interval before a line that crosses the interval at `middle` and moves by `slope` from one
+// end of the row to the other.
 double partBefore(double middle, double slope) {
   if (slope < 1e-6) return std::clamp(middle, 0.0, 1.0);
   return (ramp(middle + 0.5 * slope) - ramp(middle - 0.5 * slope)) / slope;
@@ -28,12 +28,12 @@ void mix(std::uint8_t* pixel, double own_part, const std::uint8_t* other) {
 
 }  // namespace
 
-// A side, followed pixel by pixel along the axis along which it is longer.
+// A side of a face, followed pixel by pixel along its longer axis.
 struct EdgeSmoother::Walk {
   std::uint8_t surface;
   std::ptrdiff_t along_stride, across_stride;  // [px]
   int across_first, across_last;
-  double from, across, slope, inverse_depth, inverse_depth_slope;  // at `from` on the long axis; a pixel on
+  double from, across, slope, inverse_depth, inverse_depth_slope;  // at `from` on the long axis; per pixel
 };
 
 EdgeSmoother::EdgeSmoother(const geometry::PinholeCamera& camera) : camera_(camera) {

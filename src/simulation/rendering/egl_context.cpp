@@ -1,7 +1,7 @@
 #include "simulation/rendering/gl_context.hpp"
 #include "window_ingress/text/text.hpp"
 
-#define EGL_NO_X11  // some systems' headers include X11 without it
+#define EGL_NO_X11  // otherwise some systems' headers include X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -25,18 +25,18 @@ EGLDisplay initialised() {
   return display;
 }
 
-// One for the process; it is never terminated: other threads may have contexts of it.
+// One display per process. It is never terminated, because other threads may have contexts on it.
 EGLDisplay theDisplay() {
   static const EGLDisplay display = initialised();
   return display;
 }
 
-// Without any surface: it needs neither a display nor a graphics card.
+// A context without surface: needs neither a display nor a graphics card.
 class EglContext : public GlContext {
  public:
   EglContext() {
     chooseDriver();
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with what OpenGL had before
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with the older functions
     const EGLDisplay display = theDisplay();
     context_ = eglBindAPI(EGL_OPENGL_API)
                    ? eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)

@@ -7,9 +7,9 @@
 
 namespace window_ingress::simulation {
 
-// No threads of Mesa's own: flights run side by side in processes or threads already.
+// No threads of Mesa's own, because flights already run in parallel processes or threads.
 void GlContext::chooseDriver() {
-  ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);  // EGL takes a graphics card where there is one; OSMesa never
+  ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 0);  // else EGL takes a graphics card; OSMesa never does
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 0);
   ::setenv("LP_NUM_THREADS", "0", 0);
 }

@@ -13,9 +13,9 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// In the calling thread; another context may have been current.
+  /// Makes the context current in the calling thread, in place of any other one.
   virtual void makeCurrent() = 0;
-  /// Another thread may then make it current.
+  /// Lets another thread make the context current.
   virtual void release() = 0;
   const GlFunctions& functions() const { return gl_; }
 
@@ -23,9 +23,9 @@ class GlContext {
   using Function = void (*)();
 
   GlContext() = default;
-  /// Mesa reads its environment when a process makes its first context; what the user has set stands.
+  /// Sets the environment that Mesa reads at a process's first context; keeps the user's own settings.
   static void chooseDriver();
-  /// To be called once it is current.
+  /// Call once the context is current.
   /// \throws std::runtime_error if a function is missing or the renderer is not llvmpipe (softpipe is ten
   /// times slower).
   void load(Function (*find)(const char* name));
@@ -34,13 +34,13 @@ class GlContext {
   GlFunctions gl_;
 };
 
-/// By the library that the package was configured with.
-/// \throws std::runtime_error, as the others, if there is none, or none drawn by llvmpipe
+/// A context of the library that the package was configured with.
+/// \throws std::runtime_error, as the others, if there is none, or if its renderer is not llvmpipe
 std::unique_ptr<GlContext> makeGlContext();
-/// By OSMesa, which Mesa has up to version 25.0. Of this one and the next the library has the one that was
-/// configured.
+/// A context of OSMesa, which Mesa has up to version 25.0. The library contains only the configured one of
+/// this and the next function.
 std::unique_ptr<GlContext> makeOsmesaContext();
-std::unique_ptr<GlContext> makeEglContext();  ///< by Mesa's EGL
+std::unique_ptr<GlContext> makeEglContext();  ///< a context of Mesa's EGL
 
 /// Keeps a context current in this thread.
 class CurrentContext {

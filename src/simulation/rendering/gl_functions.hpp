@@ -1,5 +1,5 @@
-/// The functions of OpenGL, all fetched from the library that makes the context: were they linked by name,
-/// another libGL in the process (a window toolkit's) could take their place and draw nothing.
+/// OpenGL functions, all fetched from the library that makes the context. If they were linked by name,
+/// another libGL in the process (of a window toolkit) could replace them and draw nothing.
 #pragma once
 
 #include <GL/gl.h>

@@ -7,7 +7,7 @@
 
 namespace window_ingress::simulation {
 
-/// What is drawn into: an image and its depths, with one or several samples a pixel.
+/// Target of the drawing: an image and its depths, with one or several samples per pixel.
 class GlTarget {
  public:
   /// \throws std::runtime_error if OpenGL refuses
@@ -28,7 +28,7 @@ class GlTarget {
   }
 
   void bind(const GlFunctions& gl) const { gl.BindFramebuffer(GL_FRAMEBUFFER, drawn_); }
-  /// Rows `rows` into those of `rgba` (CV_8UC4); several samples are averaged.
+  /// Reads the rows `rows` into those of `rgba` (CV_8UC4); averages several samples.
   void read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& rgba) const {
     gl.Disable(GL_SCISSOR_TEST);
     if (averaged_) {

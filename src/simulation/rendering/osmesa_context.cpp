@@ -59,10 +59,10 @@ class OsmesaContext : public GlContext {
       throw std::runtime_error("OSMesa refuses to make its context current");
   }
 
-  void release() override {}  // OSMesa takes a context that is current elsewhere
+  void release() override {}  // OSMesa accepts a context that is current elsewhere
 
  private:
-  // Images are drawn into framebuffer objects; OSMesa wants a buffer all the same.
+  // OSMesa needs a buffer although images are drawn into framebuffer objects.
   static constexpr int kDummySize_px = 16;
 
   OSMesaContext context_ = nullptr;

@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kFar_m = 1000.0;
 
-// From the optical frame to clip coordinates. Row 0 of the image is OpenGL's lowest, so that no row needs
-// to be moved after reading; pixel u has its centre at u + 0.5 in OpenGL's window.
+// Projection from the optical frame to clip coordinates. Row 0 of the image is OpenGL's lowest row, so that
+// no row moves after reading. Pixel u has its centre at u + 0.5 in OpenGL's window.
 Eigen::Matrix4d projectionOf(const geometry::PinholeCamera& camera) {
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
   clip(0, 0) = 2.0 * camera.fx / camera.width;
@@ -36,12 +36,11 @@ Eigen::Matrix4d projectionOf(const geometry::PinholeCamera& camera) {
   return clip;
 }
 
-// How a texture is read, by what it can bear: reading four texels costs more than all else together, and
-// blending two levels as much again. Between soft and irregular patterns nobody sees the difference; only
-// regular ones show where levels meet.
+// Filter per texture. Reading four texels costs more than everything else together, and blending two levels
+// as much again. The difference is visible only in regular patterns, where levels meet.
 struct Filter {
   GLint minifying, magnifying;
-  int enlarged;  // the texture is made so many times finer first
+  int enlarged;  // factor by which the texture is refined first
 };
 
 Filter filterOf(Texture texture) {
@@ -112,7 +111,7 @@ struct Renderer::Impl {
     return texture;
   }
 
-  // The surface's number takes the place of the colour's fourth component, to be read back with the image.
+  // The surface's number replaces the colour's fourth component, and is read back with the image.
   void upload(const GlFunctions& gl, const Scene& scene) {
     std::vector<Vertex> vertices;
     for (const auto& [batch, corners] : scene.mesh.batches()) {
@@ -142,7 +141,7 @@ struct Renderer::Impl {
     for (const GLenum ability : {GL_DEPTH_TEST, GL_CULL_FACE, GL_MULTISAMPLE, GL_SCISSOR_TEST})
       gl.Enable(ability);
     gl.Disable(GL_DITHER);
-    gl.FrontFace(GL_CW);  // the image stands on its head
+    gl.FrontFace(GL_CW);  // the image is upside down
     gl.DepthFunc(GL_LESS);
     gl.Viewport(0, 0, camera.width, camera.height);
     gl.MatrixMode(GL_PROJECTION);
@@ -154,13 +153,13 @@ struct Renderer::Impl {
     const Eigen::Vector4f colour(static_cast<float>(fog->colour.x()), static_cast<float>(fog->colour.y()),
                                  static_cast<float>(fog->colour.z()), 1.0F);
     gl.Enable(GL_FOG);
-    gl.Fogi(GL_FOG_DISTANCE_MODE_NV, GL_EYE_PLANE);  // with a sign: faces reach behind the camera
+    gl.Fogi(GL_FOG_DISTANCE_MODE_NV, GL_EYE_PLANE);  // signed distance: faces extend behind the camera
     gl.Fogf(GL_FOG_DENSITY, static_cast<GLfloat>(fog->density_per_m));
     gl.Fogfv(GL_FOG_COLOR, colour.data());
   }
 
-  // There is no fog in the room: what is seen there keeps the contrast that the way to the wall leaves.
-  // OpenGL knows fog by depth only: over a range that is long enough it is the same for all depths.
+  // There is no fog in the room: objects there keep the contrast that is left at the wall. OpenGL computes
+  // fog from depth only; over a long enough range it is the same for all depths.
   void setFogOf(const GlFunctions& gl, bool indoors, double way_to_wall_m) const {
     constexpr float kRange_m = 1e7F;
     const auto kept = static_cast<float>(std::exp(-fog->density_per_m * std::max(0.0, way_to_wall_m)));
@@ -169,7 +168,7 @@ struct Renderer::Impl {
     gl.Fogf(GL_FOG_START, (kept - 1.0F) * kRange_m);
   }
 
-  // Part of the image in which the room can be seen: seen from outside, what the opening spans.
+  // Part of the image in which the room is visible: seen from outside, the opening's extent.
   cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
     const cv::Rect image(0, 0, camera.width, camera.height);
     if (other_clear_holes) return image;
@@ -204,7 +203,7 @@ struct Renderer::Impl {
     glazing.endMirror(gl);
   }
 
-  // The fog before them is in what they show and in what they mirror already.
+  // Without fog, because the scene behind the panes and its mirror image contain the fog already.
   void drawPanes(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Rect& part) {
     scissor(gl, part);
     gl.LoadMatrixd(T_camera_window.matrix().data());
@@ -214,13 +213,13 @@ struct Renderer::Impl {
     pointToFaces(gl);
   }
 
-  // Near faces hide far ones before those are painted; neighbours in this order with the same texture are
-  // drawn at once.
+  // Draws near faces first, because they hide far ones before those are painted. Consecutive faces with the
+  // same texture are drawn at once.
   void drawFaces(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const VisibleFaces& seen,
                  const cv::Rect& part, const cv::Rect& indoors) {
     gl.Enable(GL_SCISSOR_TEST);
     scissor(gl, part);
-    gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
+    gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers every other pixel
     gl.LoadMatrixd(T_camera_window.matrix().data());
     const auto& order = seen.order();
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {

@@ -1,28 +1,28 @@
-/// What goes wrong in a world, and when; doc/scenarios.md has the table of what each kind does to each unit.
+/// Faults of a world and their times; doc/scenarios.md has the table of the effect of each kind on each unit.
 #pragma once
 
 #include <string>
 
 namespace window_ingress::simulation {
 
-/// One thing that goes wrong for a while.
+/// One temporary fault.
 struct FaultParams {
-  std::string unit = "image";  ///< what is hit
-  std::string kind = "off";    ///< what happens to it
-  double at_sec = 5.0;         ///< when it begins, in time of the world [s]
-  double duration_sec = 2.0;   ///< how long it lasts [s]
-  double rate_hz = 1.0;        ///< slow: so many samples a second are left [1/s]
-  double delay_sec = 1.0;      ///< delayed: how much later everything arrives [s]
-  double off_sec = 0.5;        ///< intermittent: so long nothing, first [s]
-  double on_sec = 0.5;         ///< intermittent: then so long as if nothing were wrong [s]
-  double jump_m = 4.0;         ///< wrong odom, tf: the position is off by this along the frame's x [m]
+  std::string unit = "image";  ///< part of the world with the fault
+  std::string kind = "off";    ///< what the fault does to the unit
+  double at_sec = 5.0;         ///< start of the fault, in the world's time [s]
+  double duration_sec = 2.0;   ///< duration [s]
+  double rate_hz = 1.0;        ///< slow: remaining samples per second [1/s]
+  double delay_sec = 1.0;      ///< delayed: additional delay of every sample [s]
+  double off_sec = 0.5;        ///< intermittent: length of each gap; a gap comes first [s]
+  double on_sec = 0.5;         ///< intermittent: length of normal operation after each gap [s]
+  double jump_m = 4.0;         ///< wrong odom, tf: error of the position along the frame's x [m]
   double slide_mps =
-      0.5;  ///< slide: the position moves off at this speed, the velocity knows nothing of it [m/s]
-  double direction_rad = 0.0;   ///< slide: where to, from the frame's x towards its y [rad]
-  double turn_rad = 1.5707963;  ///< wrong odom, tf: the heading is off by this [rad]
-  double tilt_rad = 0.5;        ///< wrong imu: the attitude is rolled by this [rad]
-  double zoom = 1.3;            ///< wrong camera_info: focal lengths times this
-  double back_sec = 5.0;        ///< wrong clock: it is behind by this [s]
+      0.5;  ///< slide: speed at which the position drifts, while the velocity shows none of it [m/s]
+  double direction_rad = 0.0;   ///< slide: direction of the drift, from the frame's x towards its y [rad]
+  double turn_rad = 1.5707963;  ///< wrong odom, tf: error of the heading [rad]
+  double tilt_rad = 0.5;        ///< wrong imu: error of the attitude, in roll [rad]
+  double zoom = 1.3;            ///< wrong camera_info: factor on the focal lengths
+  double back_sec = 5.0;        ///< wrong clock: delay of the clock [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.choice("unit", self.unit, {"image", "camera_info", "odom", "imu", "tf", "clock", "cmd_vel"});
@@ -44,9 +44,9 @@ struct FaultParams {
   }
 };
 
-/// Why there can be no such fault: a unit that this kind does nothing sensible to; empty if there can.
+/// Why this fault is impossible: the kind has no useful effect on the unit. Empty if it is possible.
 std::string whyNoSuchFault(const FaultParams& fault);
-/// The same where the vehicle is simulated elsewhere, and its data with it.
+/// As above, for an external vehicle, whose data does not come from this world.
 std::string whyNotBesideExternalVehicle(const FaultParams& fault);
 
 }  // namespace window_ingress::simulation

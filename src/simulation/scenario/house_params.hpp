@@ -1,4 +1,4 @@
-/// Parameters of the house with its windows, and of what only looks like one; see `Scenario`.
+/// Parameters of the house, its windows and decoys; see `Scenario`.
 #pragma once
 
 #include <algorithm>
@@ -21,22 +21,21 @@ struct ColourParams {
 
 /// The target: a rectangular window with a coloured frame, open unless `closed_by` says otherwise.
 struct WindowParams {
-  bool present = true;    ///< false: the wall is closed where the window would be
-  double width_m = 1.2;   ///< of the opening, inside its frame [m]
-  double height_m = 1.0;  ///< of the opening, inside its frame [m]
-  double sill_m = 1.0;    ///< lower border of the opening above the ground [m]
+  bool present = true;    ///< false: solid wall in place of the window
+  double width_m = 1.2;   ///< inner width of the opening [m]
+  double height_m = 1.0;  ///< inner height of the opening [m]
+  double sill_m = 1.0;    ///< height of the opening's lower border above the ground [m]
   double frame_width_m =
       0.07;  ///< visible width of the frame around the opening; 0: a bare hole in the wall [m]
   double frame_depth_m =
-      0.02;  ///< how far the frame stands out of the wall, 2 mm at least; not used without a frame [m]
-  ColourParams frame{225, 95, 20};     ///< of the frame
-  ColourParams reveal{205, 200, 190};  ///< inner faces of the opening
+      0.02;  ///< how far the frame protrudes from the wall, at least 2 mm; ignored without a frame [m]
+  ColourParams frame{225, 95, 20};     ///< colour of the frame
+  ColourParams reveal{205, 200, 190};  ///< colour of the opening's inner faces
   std::string surround =
-      "none";  ///< what is around the frame: a board below, folded shutters at both sides, a beam above
-  std::string closed_by =
-      "none";         ///< none: open; else what closes it: solid, but `T_odom_window` tells its pose as ever
-  double dirt = 0.0;  ///< part of its glass that specks of dirt cover; 0: clean
-  std::string bars = "none";  ///< in front of what closes it
+      "none";  ///< surround of the frame: a board below, folded shutters at both sides, or a beam above
+  std::string closed_by = "none";  ///< what closes it (solid; `T_odom_window` stays valid); none: open
+  double dirt = 0.0;               ///< part of the window's glass that is covered by dirt; 0: clean
+  std::string bars = "none";       ///< bars in front of a closed window
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("present", self.present);
@@ -54,24 +53,24 @@ struct WindowParams {
     field.choice("bars", self.bars, {"none", "vertical", "cross"});
   }
   static constexpr double kMinFrameDepth_m = 0.002;
-  /// How far the wall's face lies behind the plane x = 0 of the window frame [m].
+  /// Distance of the wall's face behind the plane x = 0 of the window frame [m].
   double wallFront() const { return frame_width_m > 0.0 ? std::max(frame_depth_m, kMinFrameDepth_m) : 0.0; }
   bool isOpen() const { return present && closed_by == "none"; }
-  /// The room is seen through it: it is open, or of clear glass.
+  /// Whether the room is visible through the window: it is open, or of clear glass.
   bool showsRoom() const { return isOpen() || (present && closed_by == "glass"); }
 };
 
-/// A window that is no target.
+/// A window that is not the target.
 struct DecoyParams {
-  double y_m = 2.6;                        ///< centre, to the left of the target's centre [m]
-  double z_m = 0.0;                        ///< centre, above the target's centre [m]
-  double width_m = 1.0;                    ///< inside its frame [m]
-  double height_m = 1.0;                   ///< inside its frame [m]
-  double frame_width_m = 0.06;             ///< visible width of its frame; 0: none [m]
-  ColourParams frame{240, 240, 235};       ///< of its frame
-  std::string surround = "none";           ///< as of the target
-  std::string closed_by = "tinted_glass";  ///< none: an open way into the same room, and the wrong one
-  std::string bars = "vertical";           ///< in front of what closes it
+  double y_m = 2.6;             ///< horizontal position of its centre, to the left of the target's centre [m]
+  double z_m = 0.0;             ///< height of its centre above the target's centre [m]
+  double width_m = 1.0;         ///< inner width [m]
+  double height_m = 1.0;        ///< inner height [m]
+  double frame_width_m = 0.06;  ///< visible width of its frame; 0: no frame [m]
+  ColourParams frame{240, 240, 235};       ///< colour of its frame
+  std::string surround = "none";           ///< surround, as for the target
+  std::string closed_by = "tinted_glass";  ///< what closes it; none: an open, but wrong way into the room
+  std::string bars = "vertical";           ///< bars in front of a closed decoy
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -91,12 +90,12 @@ struct DecoyParams {
 
 /// A closed door in the front wall.
 struct DoorParams {
-  double y_m = -3.5;                  ///< centre, to the left of the target's centre [m]
-  double width_m = 0.95;              ///< inside its frame [m]
-  double height_m = 2.05;             ///< inside its frame, above the ground [m]
-  double frame_width_m = 0.08;        ///< visible width of its frame [m]
-  ColourParams frame{240, 240, 235};  ///< of its frame
-  ColourParams leaf{70, 85, 100};     ///< of its leaf
+  double y_m = -3.5;            ///< horizontal position of its centre, to the left of the target's centre [m]
+  double width_m = 0.95;        ///< inner width [m]
+  double height_m = 2.05;       ///< height of its opening above the ground [m]
+  double frame_width_m = 0.08;  ///< visible width of its frame [m]
+  ColourParams frame{240, 240, 235};  ///< colour of its frame
+  ColourParams leaf{70, 85, 100};     ///< colour of its leaf
   bool glazed = true;                 ///< with a pane in its upper half
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -112,13 +111,13 @@ struct DoorParams {
 
 /// A printed rectangle on the wall.
 struct PosterParams {
-  double y_m = -1.9;                 ///< centre, to the left of the target's centre [m]
-  double z_m = 0.1;                  ///< centre, above the target's centre [m]
-  double width_m = 0.7;              ///< with its border [m]
-  double height_m = 0.9;             ///< with its border [m]
-  double border_m = 0.05;            ///< width of its border [m]
-  ColourParams border{30, 60, 150};  ///< of its border
-  std::string look = "picture";      ///< printed: an image, the view through an open window, a chessboard
+  double y_m = -1.9;       ///< horizontal position of its centre, to the left of the target's centre [m]
+  double z_m = 0.1;        ///< height of its centre above the target's centre [m]
+  double width_m = 0.7;    ///< width including the border [m]
+  double height_m = 0.9;   ///< height including the border [m]
+  double border_m = 0.05;  ///< width of its border [m]
+  ColourParams border{30, 60, 150};  ///< colour of the border
+  std::string look = "picture";      ///< print: an image, the view through an open window, or a chessboard
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -131,13 +130,13 @@ struct PosterParams {
   }
 };
 
-/// The house with all around it swings to and fro in the odometry frame, as one does that hangs from a crane
-/// or floats. It does not turn.
+/// The house swings in the odometry frame with all its surroundings, as if it hung from a crane or floated.
+/// It does not turn.
 struct SwayParams {
-  double amplitude_m = 0.0;    ///< furthest from its resting place [m]; 0: it stands still
-  double period_sec = 4.0;     ///< of a full swing [s]
-  double direction_rad = 0.0;  ///< of the swing: 0 along the wall, pi/2 along the window's normal [rad]
-  double phase_rad = 0.0;      ///< at the start; 0: through its resting place [rad]
+  double amplitude_m = 0.0;  ///< largest distance of the house from its resting place; 0: it stands still [m]
+  double period_sec = 4.0;   ///< period of the swing [s]
+  double direction_rad = 0.0;  ///< direction of the swing: 0 along the wall, pi/2 along the normal [rad]
+  double phase_rad = 0.0;      ///< phase of the swing at the start; 0: through the resting place [rad]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("amplitude_m", self.amplitude_m, 0.0, 1.0);
@@ -149,14 +148,14 @@ struct SwayParams {
 
 /// The light outdoors: sun, sky and fog.
 struct LightParams {
-  double sun_azimuth_rad = 0.6;  ///< where the sun stands, from the outward normal towards the left; beyond
-                                 ///< pi/2: behind the house [rad]
-  double sun_elevation_rad = 0.85;    ///< how high the sun stands [rad]
-  double sun = 0.5;                   ///< brightness that the sun adds to a face square to it
-  double ambient = 0.55;              ///< brightness of a face in shadow
-  double sky = 1.0;                   ///< brightness of the sky itself
-  ColourParams light{255, 255, 255};  ///< of the light outdoors
-  double fog_m = 0.0;                 ///< distance at which 5 % of all contrast is left; 0: no fog [m]
+  double sun_azimuth_rad = 0.6;     ///< azimuth of the sun, from the outward normal towards the left; beyond
+                                    ///< pi/2 it stands behind the house [rad]
+  double sun_elevation_rad = 0.85;  ///< elevation of the sun [rad]
+  double sun = 0.5;                 ///< brightness that the sun adds to a face perpendicular to it
+  double ambient = 0.55;            ///< brightness of a face in shadow
+  double sky = 1.0;                 ///< brightness of the sky
+  ColourParams light{255, 255, 255};  ///< colour of the light outdoors
+  double fog_m = 0.0;                 ///< distance at which 5 % of the contrast is left; 0: no fog [m]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("sun_azimuth_rad", self.sun_azimuth_rad, -3.15, 3.15);
@@ -171,20 +170,20 @@ struct LightParams {
 
 /// The house around the window, and the room behind it.
 struct HouseParams {
-  std::string wall_texture = "plaster";  ///< what the front wall is made of
-  ColourParams wall{226, 214, 190};      ///< of the front wall
-  double wall_thickness_m = 0.24;        ///< of the wall behind the frame [m]
-  double width_m = 11.0;                 ///< of the front wall, the target at its middle [m]
+  std::string wall_texture = "plaster";  ///< material of the front wall
+  ColourParams wall{226, 214, 190};      ///< colour of the front wall
+  double wall_thickness_m = 0.24;        ///< thickness of the wall behind the frame [m]
+  double width_m = 11.0;                 ///< width of the front wall, centred on the target [m]
   double eaves_m = 3.1;                  ///< height of the front wall [m]
   double room_depth_m = 5.0;             ///< free depth behind the wall [m]
   double room_light =
-      0.38;  ///< brightness of the room beside full daylight; its back wall gets 1.149 times this
-  std::string room_texture = "plaster";  ///< of the room's walls
-  ColourParams room{205, 200, 180};      ///< of the room's walls
-  std::string furniture = "some";        ///< in the room, none of it in the way
-  bool back_window = false;              ///< a glazed window in the room's back wall, and daylight behind it
-  LightParams daylight;                  ///< its keys stand among those of the house
-  int texture_seed = 1;                  ///< seed of the patterns on all surfaces
+      0.38;  ///< brightness of the room relative to full daylight; its back wall gets 1.149 times this
+  std::string room_texture = "plaster";  ///< material of the room's walls
+  ColourParams room{205, 200, 180};      ///< colour of the room's walls
+  std::string furniture = "some";        ///< furniture in the room, all of it out of the way
+  bool back_window = false;              ///< a glazed window with daylight in the room's back wall
+  LightParams daylight;                  ///< in a scenario file these keys are keys of the house
+  int texture_seed = 1;                  ///< seed of all surface patterns
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.choice("wall_texture", self.wall_texture, {"plaster", "brick", "siding", "stone", "paint"});

@@ -1,4 +1,4 @@
-/// Parameters of the vehicle and of the air around it; see `Scenario`.
+/// Parameters of the vehicle and the air; see `Scenario`.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,34 +8,34 @@ namespace window_ingress::simulation {
 
 /// The quadrotor and its autopilot. It must tilt to accelerate.
 struct QuadrotorParams {
-  std::string profile = "default";   ///< of the autopilot: sets the defaults of vehicle and odometry
-  double half_length_m = 0.20;       ///< half of its box along x, propellers included [m]
-  double half_width_m = 0.20;        ///< half of its box along y [m]
-  double half_height_m = 0.07;       ///< half of its box along z [m]
-  double mass_kg = 1.5;              ///< for which its controllers are tuned [kg]
-  double payload_kg = 0.0;           ///< carried beside it, unknown to its controllers [kg]
-  double thrust_gain_error = 0.0;    ///< thrust that it gives beyond the thrust wanted, as a part of it
-  double attitude_gain_error = 0.0;  ///< gain of the attitude loop beyond the gain tuned, as a part of it
-  double velocity_gain = 1.0;        ///< velocity reached for each m/s asked
-  double yaw_rate_gain = 1.0;        ///< yaw rate reached for each rad/s asked
+  std::string profile = "default";   ///< autopilot whose values become the defaults of vehicle and odometry
+  double half_length_m = 0.20;       ///< half of the box along x, including the propellers [m]
+  double half_width_m = 0.20;        ///< half of the box along y [m]
+  double half_height_m = 0.07;       ///< half of the box along z [m]
+  double mass_kg = 1.5;              ///< mass for which the controllers are tuned [kg]
+  double payload_kg = 0.0;           ///< additional mass, unknown to the controllers [kg]
+  double thrust_gain_error = 0.0;    ///< relative error of the thrust: 0.1 gives 10 % more than wanted
+  double attitude_gain_error = 0.0;  ///< relative error of the attitude loop's gain
+  double velocity_gain = 1.0;        ///< reached velocity per commanded velocity
+  double yaw_rate_gain = 1.0;        ///< reached yaw rate per commanded yaw rate
   double setpoint_acceleration_mps2 =
-      0.0;  ///< the velocity setpoint is changed at most so fast [m/s^2]; 0: at once
+      0.0;  ///< largest rate of change of the velocity setpoint; 0: unlimited [m/s^2]
   double setpoint_time_constant_sec =
-      0.0;                          ///< how smoothly the setpoint ends its change [s]; 0: straight ramp
-  double setpoint_jerk_mps3 = 0.0;  ///< limit of the change of the setpoint's acceleration [m/s^3]; 0: none
-  double acceleration_feed_forward = 0.0;  ///< part of the setpoint's acceleration that is fed forward
-  double position_hold_per_sec = 0.0;  ///< pull to where the setpoint would have brought it [1/s]; 0: none
-  double velocity_time_constant_sec = 0.40;  ///< of the answer to a velocity setpoint [s]
-  double velocity_integral_per_sec = 0.5;    ///< how fast steady wind is trimmed out [1/s]
-  double max_acceleration_mps2 = 3.0;        ///< the most that the velocity controller asks for [m/s^2]
-  double max_tilt_rad = 0.40;                ///< the most that the velocity controller tilts it [rad]
-  double attitude_time_constant_sec = 0.10;  ///< of the attitude loop [s]
+      0.0;                          ///< time constant at the end of a setpoint change; 0: straight ramp [s]
+  double setpoint_jerk_mps3 = 0.0;  ///< limit on the change of the setpoint's acceleration; 0: none [m/s^3]
+  double acceleration_feed_forward = 0.0;    ///< share of the setpoint's acceleration that is fed forward
+  double position_hold_per_sec = 0.0;        ///< pull to where the setpoints would have led; 0: none [1/s]
+  double velocity_time_constant_sec = 0.40;  ///< time constant of the answer to a velocity setpoint [s]
+  double velocity_integral_per_sec = 0.5;    ///< rate at which the controller compensates steady wind [1/s]
+  double max_acceleration_mps2 = 3.0;        ///< largest acceleration from the velocity controller [m/s^2]
+  double max_tilt_rad = 0.40;                ///< largest tilt from the velocity controller [rad]
+  double attitude_time_constant_sec = 0.10;  ///< time constant of the attitude loop [s]
   double max_tilt_rate_radps = 4.0;          ///< limit of roll and pitch rate [rad/s]
-  double yaw_time_constant_sec = 0.15;       ///< of the answer to a yaw rate [s]
-  double max_yaw_rate_radps = 2.0;           ///< yaw rates beyond are shortened [rad/s]
-  double max_speed_mps = 5.0;                ///< setpoints beyond are shortened [m/s]
-  double drag_per_sec = 0.25;        ///< deceleration for each m/s through the air, without payload [1/s]
-  double command_timeout_sec = 0.5;  ///< without a new setpoint for so long, it brakes to hover [s]
+  double yaw_time_constant_sec = 0.15;       ///< time constant of the answer to a yaw rate [s]
+  double max_yaw_rate_radps = 2.0;           ///< larger yaw rates are limited to this [rad/s]
+  double max_speed_mps = 5.0;                ///< faster setpoints are limited to this [m/s]
+  double drag_per_sec = 0.25;                ///< deceleration per m/s of airspeed, without payload [1/s]
+  double command_timeout_sec = 0.5;  ///< without setpoints for this long, the vehicle brakes to hover [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.choice("profile", self.profile,
@@ -67,22 +67,22 @@ struct QuadrotorParams {
     field("drag_per_sec", self.drag_per_sec, 0.0, 2.0);
     field("command_timeout_sec", self.command_timeout_sec, 0.05, 10.0);
   }
-  /// Of the mass carried to the mass known.
+  /// Carried mass over known mass.
   double massRatio() const { return 1.0 + payload_kg / mass_kg; }
   Eigen::Vector3d halfExtents() const { return {half_length_m, half_width_m, half_height_m}; }
 };
 
-/// Movement of the air, along the window's axes, and what the wall does to it.
+/// Motion of the air, in the window's axes, and the wall's effect on the vehicle.
 struct WindParams {
-  double x_mps = 0.0;           ///< outside, towards the wall [m/s]
-  double y_mps = 0.0;           ///< outside, to the left as seen when looking at the window [m/s]
-  double z_mps = 0.0;           ///< outside, up [m/s]
-  std::string gusts = "none";   ///< turbulence: none, or the Dryden model of MIL-F-8785C at low altitude
-  double wind_20ft_mps = 5.0;   ///< wind at 20 feet, from which the strength of Dryden's gusts follows [m/s]
-  double inside_part = 0.1;     ///< of outside wind and gusts, what is left of them in the room
-  double draught_mps = 0.0;     ///< through the opening, into the room; negative: out of it [m/s]
-  double wall_push_mps2 = 0.0;  ///< acceleration towards the wall of a vehicle that touches it [m/s^2]
-  double wall_push_length_m = 0.3;  ///< gap to the wall over which that push falls to 37 % [m]
+  double x_mps = 0.0;               ///< wind outside, towards the wall [m/s]
+  double y_mps = 0.0;               ///< wind outside, to the left of somebody who looks at the window [m/s]
+  double z_mps = 0.0;               ///< wind outside, up [m/s]
+  std::string gusts = "none";       ///< turbulence: none, or the Dryden model of MIL-F-8785C at low altitude
+  double wind_20ft_mps = 5.0;       ///< wind at 20 feet, which sets the strength of Dryden's gusts [m/s]
+  double inside_part = 0.1;         ///< part of wind and gusts that is left in the room
+  double draught_mps = 0.0;         ///< draught through the opening into the room; negative: out of it [m/s]
+  double wall_push_mps2 = 0.0;      ///< acceleration towards the wall for a vehicle that touches it [m/s^2]
+  double wall_push_length_m = 0.3;  ///< gap to the wall at which the push has fallen to 37 % [m]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("x_mps", self.x_mps, -15.0, 15.0);

@@ -27,7 +27,7 @@ void checkFits(const Scenario& s, std::vector<std::string>& faults) {
     faults.push_back("window/dirt: is on glass only; say closed_by: glass");
 }
 
-// What a window or a poster takes of the wall, beside the target's centre.
+// The area of a window or a poster on the wall, relative to the target's centre.
 struct Patch {
   double y_m, z_m, half_width_m, half_height_m;
   bool overlaps(const Patch& other) const {
@@ -46,8 +46,7 @@ Patch patchOf(const Scenario& s, const DoorParams& door) {
   return {door.y_m, half_m - s.windowCentreHeight(), 0.5 * door.width_m + door.frame_width_m, half_m};
 }
 
-// Nothing may cover the target, and windows and doors may not cover each other. Posters may hang anywhere
-// else.
+// Nothing may cover the target, and windows and doors may not overlap. Posters may hang anywhere else.
 void checkWall(const Scenario& s, std::vector<std::string>& faults) {
   std::vector<std::pair<std::string, Patch>> patches;
   const double margin_m = s.window.frame_width_m;
@@ -68,7 +67,7 @@ void checkWall(const Scenario& s, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < s.doors.size(); ++i) add("doors", i, patchOf(s, s.doors[i]), true);
 }
 
-// What is open leads into the room, so that it must lie within the wall.
+// An open decoy leads into the room, so it must lie within the wall.
 void checkOpenDecoys(const Scenario& s, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < s.decoys.size(); ++i) {
     const Patch patch = patchOf(s.decoys[i]);
@@ -90,7 +89,7 @@ void checkStart(const Scenario& s, std::vector<std::string>& faults) {
     faults.push_back("start/height_offset_m: starts in the roof");
 }
 
-// So that there is thrust left to climb and to tilt.
+// Leaves enough thrust to climb and to tilt.
 void checkPayload(const Scenario& s, std::vector<std::string>& faults) {
   const double part = (1.0 + s.vehicle.thrust_gain_error) / s.vehicle.massRatio();
   if (part < 0.6) faults.push_back("vehicle/payload_kg: too heavy for its thrust");

@@ -1,5 +1,5 @@
-/// What a world consists of. Every key of a scenario file is a field listed by one of the `visit` functions
-/// here; doc/scenarios.md explains them all.
+/// The content of a world. Every key of a scenario file is a field in one of the `visit` functions here;
+/// doc/scenarios.md explains all keys.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,14 +21,14 @@ namespace window_ingress::simulation {
 /// Where the flight starts, relative to the target window.
 struct StartParams {
   double distance_m = 5.0;    ///< horizontal distance from the opening's centre [m]
-  double off_axis_rad = 0.0;  ///< bearing of the start around the window's outward normal; positive: left of
-                              ///< it, as seen by somebody who looks at the window [rad]
-  double heading_rad = 0.0;   ///< heading beside the direction to the window, positive: turned left [rad]
-  double height_offset_m = 0.0;  ///< above the opening's centre [m]; not used on the ground
-  double odom_x_m = 0.0;         ///< place of the start in the odometry frame [m]
-  double odom_y_m = 0.0;         ///< likewise [m]
-  double odom_yaw_rad = 0.0;     ///< heading of the vehicle in the odometry frame [rad]
-  bool hovering = true;          ///< starts hovering; false: stands on the ground
+  double off_axis_rad = 0.0;  ///< bearing from the window's outward normal; positive: left of it for
+                              ///< somebody who looks at the window [rad]
+  double heading_rad = 0.0;  ///< heading relative to the direction to the window; positive: turned left [rad]
+  double height_offset_m = 0.0;  ///< height above the opening's centre; ignored on the ground [m]
+  double odom_x_m = 0.0;         ///< x of the start in the odometry frame [m]
+  double odom_y_m = 0.0;         ///< y of the start in the odometry frame [m]
+  double odom_yaw_rad = 0.0;     ///< heading of the start in the odometry frame [rad]
+  bool hovering = true;          ///< true: starts hovering; false: starts on the ground
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("distance_m", self.distance_m, 0.8, 15.0);
@@ -42,13 +42,13 @@ struct StartParams {
   }
 };
 
-/// One world. A plain `Scenario` is a calm day: 5 m straight in front of the window, facing it.
+/// One world. The default `Scenario` is a calm day: 5 m straight in front of the window, facing it.
 struct Scenario {
-  double time_limit_sec = 60.0;  ///< of the flight [s]
-  std::string glass = "as_set";  ///< `commit/glass` of the navigator in `fly`; as_set: as its parameters say
+  double time_limit_sec = 60.0;  ///< time limit of the flight [s]
+  std::string glass = "as_set";  ///< `commit/glass` of the navigator in `fly`; as_set: not changed
   std::string unverified_opening =
-      "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
-  bool target_chosen = false;  ///< somebody points at the target, once seen, and then starts
+      "as_set";                ///< `commit/unverified_opening` of the navigator in `fly`; as_set: not changed
+  bool target_chosen = false;  ///< the operator selects the target once it is seen, and then starts
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;
@@ -89,21 +89,21 @@ struct Scenario {
   }                                             ///< above the ground [m]
   Eigen::Isometry3d startPoseInWindow() const;  ///< T_window_base
   Eigen::Isometry3d startPoseInOdom() const;    ///< T_odom_base; z = 0 is the ground
-  Eigen::Isometry3d T_odom_window() const;      ///< of a house at its resting place
-  /// The start lies where the vehicle is, whatever its height, and the house accordingly.
+  Eigen::Isometry3d T_odom_window() const;      ///< for a house at its resting place
+  /// Moves start and house so that the start lies at the vehicle's place, except for its height.
   void startAt(const Eigen::Isometry3d& T_odom_base);
 };
 
-/// What is wrong with the scenario, one text a fault: values out of range, things that do not fit together.
+/// All faults of the scenario, one text each: values out of range, inconsistent parts.
 std::vector<std::string> faultsOf(const Scenario& scenario);
 
-/// Where within its range a key's value lies, 0 to 1, by the key's path ("window/width_m",
-/// "faults[0]/at_sec"); of `{one_of: [...]}` which of the values. What is not named is drawn from the seed.
+/// Position of a key's value within its range, 0 to 1, by the key's path ("window/width_m",
+/// "faults[0]/at_sec"); of `{one_of: [...]}`, which value. Other keys are drawn from the seed.
 using Quantiles = std::map<std::string, double>;
 
-/// Reads a scenario. Any number may be a fixed value or a range `[min, max]` that is drawn from the seed,
-/// each key for itself: a further range leaves the values of the others as they were. \throws InputError
-/// with file, line and key
+/// Reads a scenario. Any number may be a fixed value or a range `[min, max]`. Each key is drawn from the seed
+/// independently, so that another range leaves the other values unchanged. \throws InputError with file, line
+/// and key
 Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles = {});
 
 }  // namespace window_ingress::simulation

@@ -13,15 +13,15 @@ namespace window_ingress::simulation {
 
 namespace {
 
-/// Where within its range a key's value is to lie, and which of these keys there were; what is wrong.
+/// Requested quantiles, those of them that were used, and faults.
 struct Draws {
   const Quantiles& quantiles;
   std::set<std::string> used = {};
   parameters::YamlFaults faults = {};
 };
 
-/// Visitor that fills a scenario from a yaml mapping. Beyond what stands in all parameter files it takes a
-/// range `[min, max]` for any number, `{one_of: [...]}` for any value, and lists of structs. Faults go to the
+/// Visitor that fills a scenario from a yaml mapping. In addition to parameter files it accepts a range
+/// `[min, max]` for any number, `{one_of: [...]}` for any value, and lists of structs. Faults go to the
 /// draws.
 class ScenarioReader {
  public:
@@ -84,7 +84,7 @@ class ScenarioReader {
     return std::clamp(given->second, 0.0, 1.0);
   }
 
-  // What may stand there: the items of `{one_of: [...]}`, or the value itself.
+  // The possible values: the items of `{one_of: [...]}`, or the value itself.
   std::vector<YAML::Node> optionsOf(const std::string& name, const YAML::Node& node) const {
     if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
     const YAML::Node items = node["one_of"];
@@ -101,7 +101,7 @@ class ScenarioReader {
         RandomStream(seed_, path_ + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
 
-  // All options are read, so that a bad one is an error whatever the seed.
+  // Reads all options, so that a bad one is an error whatever the seed.
   template <typename Value, typename Read>
   void readDrawn(const std::string& name, Value& value, const Read& read) {
     asked_.push_back(path_ + name);
@@ -120,7 +120,7 @@ class ScenarioReader {
     });
   }
 
-  // As in all parameter files.
+  // Reads one value as in parameter files.
   void readOne(const YAML::Node& node, const parameters::Field& field) const {
     parameters::readValue(file_, node, field);
   }
@@ -166,7 +166,7 @@ YAML::Node spelledOut(const YAML::Node& vehicle) {
   return mapping;
 }
 
-// `vehicle: NAME` is short for `vehicle: {profile: NAME}`, among the items of `{one_of: [...]}` too.
+// `vehicle: NAME` is short for `vehicle: {profile: NAME}`, also among the items of `{one_of: [...]}`.
 void spellOutProfile(YAML::Node& root) {
   if (!root.IsMap() || !root["vehicle"].IsDefined()) return;
   const YAML::Node vehicle = root["vehicle"];
@@ -177,7 +177,7 @@ void spellOutProfile(YAML::Node& root) {
   root["vehicle"]["one_of"] = items;
 }
 
-// Twice: what the file leaves open follows from the profile, which stands in the file.
+// Reads the file twice, because the defaults depend on the profile, which is in the file.
 Scenario readScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles) {
   YAML::Node root = parameters::loadYaml(file);
   spellOutProfile(root);

@@ -1,4 +1,4 @@
-/// Parameters of camera, odometry and inertial sensors; see `Scenario`.
+/// Parameters of camera, odometry and IMU; see `Scenario`.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,46 +8,44 @@
 
 namespace window_ingress::simulation {
 
-/// The camera and how it is mounted.
+/// The camera and its mounting.
 struct CameraParams {
-  int width_px = 640;                 ///< of the image [px]
-  int height_px = 480;                ///< of the image [px]
-  std::string lens = "plumb_bob";     ///< model of its distortion; equidistant: a fisheye
-  double horizontal_fov_rad = 1.20;   ///< of the lens without its distortion; plumb_bob: 2.4 at most [rad]
+  int width_px = 640;                 ///< width of the image [px]
+  int height_px = 480;                ///< height of the image [px]
+  std::string lens = "plumb_bob";     ///< model of the lens's distortion; equidistant: a fisheye
+  double horizontal_fov_rad = 1.20;   ///< field of view without distortion; at most 2.4 for plumb_bob [rad]
   double k1 = 0.0;                    ///< radial distortion of the lens's model
   double k2 = 0.0;                    ///< radial distortion
-  double p1 = 0.0;                    ///< tangential distortion, of plumb_bob only
-  double p2 = 0.0;                    ///< tangential distortion, of plumb_bob only
+  double p1 = 0.0;                    ///< tangential distortion, plumb_bob only
+  double p2 = 0.0;                    ///< tangential distortion, plumb_bob only
   double k3 = 0.0;                    ///< radial distortion
-  double k4 = 0.0;                    ///< radial distortion, of equidistant only
-  std::string calibration_file = "";  ///< yaml file in place of size, lens, field of view and distortion
-  double x_m = 0.10;                  ///< of the camera, forward of the vehicle's centre [m]
-  double y_m = 0.0;                   ///< of the camera, to the left [m]
-  double z_m = 0.02;                  ///< of the camera, up [m]
-  double pitch_rad = 0.0;             ///< of the camera: looking down is positive [rad]
-  double yaw_rad = 0.0;               ///< of the camera: looking left is positive [rad]
-  double told_pitch_error_rad =
-      0.0;                          ///< of what the vehicle is told of its mounting, beside `pitch_rad` [rad]
-  double told_yaw_error_rad = 0.0;  ///< likewise, beside `yaw_rad` [rad]
-  double rate_hz = 30.0;            ///< images a second [1/s]
-  double latency_sec = 0.03;        ///< from exposure to delivery [s]
-  double latency_jitter_sec = 0.0;  ///< an image takes up to so much longer, evenly distributed [s]
-  double drop_probability = 0.0;    ///< that an image is lost
-  double exposure_sec = 0.004;      ///< the shutter is open so long, around the image's stamp [s]
-  double readout_sec = 0.0;      ///< the last row is exposed so much later than the first; 0: all at once [s]
-  double noise_grey = 2.0;       ///< of a black pixel, standard deviation of each channel [grey levels]
-  double shot_noise_grey = 0.0;  ///< added in squares, times grey / 255: that of white [grey levels]
-  double blur_px = 0.6;          ///< standard deviation of the lens's blur [px]
-  double gain = 1.0;             ///< all brightness times this; with auto exposure: of the first image
-  bool auto_exposure = false;    ///< brings the image's mean to `target_grey`
-  double target_grey = 110.0;    ///< of the auto exposure [grey levels]
-  double auto_exposure_sec = 0.3;        ///< time constant of auto exposure and auto white balance [s]
-  double least_gain = 0.25;              ///< of the auto exposure
-  double greatest_gain = 4.0;            ///< of the auto exposure
-  double colour_temperature_k = 6500.0;  ///< of the light; 6500: neutral, less: reddish [K]
-  bool auto_white_balance = false;       ///< brings the means of red and blue to that of green
-  std::string antialiasing =
-      "edges";  ///< edges: by exact area, fast; multisampling: 4 samples, the reference
+  double k4 = 0.0;                    ///< radial distortion, equidistant only
+  std::string calibration_file = "";  ///< yaml file that replaces size, lens, field of view and distortion
+  double x_m = 0.10;                  ///< position of the camera, forward of the vehicle's centre [m]
+  double y_m = 0.0;                   ///< position of the camera, to the left [m]
+  double z_m = 0.02;                  ///< position of the camera, up [m]
+  double pitch_rad = 0.0;             ///< pitch of the camera; positive: looks down [rad]
+  double yaw_rad = 0.0;               ///< yaw of the camera; positive: looks left [rad]
+  double told_pitch_error_rad = 0.0;  ///< error of the mounting's pitch as told to the vehicle [rad]
+  double told_yaw_error_rad = 0.0;    ///< error of the mounting's yaw as told to the vehicle [rad]
+  double rate_hz = 30.0;              ///< images per second [1/s]
+  double latency_sec = 0.03;          ///< from exposure to delivery [s]
+  double latency_jitter_sec = 0.0;    ///< largest additional delay of an image, evenly distributed [s]
+  double drop_probability = 0.0;      ///< probability that an image is lost
+  double exposure_sec = 0.004;        ///< exposure time, centred on the image's stamp [s]
+  double readout_sec = 0.0;  ///< delay of the last row's exposure after the first row's; 0: all at once [s]
+  double noise_grey = 2.0;   ///< noise of a black pixel, standard deviation per channel [grey levels]
+  double shot_noise_grey = 0.0;    ///< noise of white, added in squares times grey / 255 [grey levels]
+  double blur_px = 0.6;            ///< standard deviation of the lens's blur [px]
+  double gain = 1.0;               ///< factor on all brightness; with auto exposure only for the first image
+  bool auto_exposure = false;      ///< brings the image's mean to `target_grey`
+  double target_grey = 110.0;      ///< target of the auto exposure [grey levels]
+  double auto_exposure_sec = 0.3;  ///< time constant of auto exposure and white balance [s]
+  double least_gain = 0.25;        ///< smallest gain of the auto exposure
+  double greatest_gain = 4.0;      ///< largest gain of the auto exposure
+  double colour_temperature_k = 6500.0;  ///< colour temperature; 6500: neutral, less: reddish [K]
+  bool auto_white_balance = false;       ///< brings the means of red and blue to the mean of green
+  std::string antialiasing = "edges";  ///< edges: exact areas, fast; multisampling: 4 samples, the reference
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("width_px", self.width_px, 64, 1920);
@@ -90,45 +88,43 @@ struct CameraParams {
   /// \throws InputError as `parameters::readCalibrationFile` for a bad `calibration_file`
   geometry::PinholeCamera model() const;
   Eigen::Isometry3d T_base_camera() const;
-  /// The mounting as the vehicle is told of it.
+  /// The mounting as told to the vehicle, errors included.
   Eigen::Isometry3d toldT_base_camera() const;
 };
 
-/// What is wrong with the vehicle's odometry.
+/// Errors of the vehicle's odometry.
 struct OdometryParams {
-  double rate_hz = 50.0;      ///< samples a second [1/s]
+  double rate_hz = 50.0;      ///< samples per second [1/s]
   double latency_sec = 0.03;  ///< from measurement to delivery [s]
-  double jitter_sec = 0.0;    ///< further delay of a sample, drawn evenly from 0 to this [s]
+  double jitter_sec = 0.0;    ///< largest additional delay of a sample, evenly distributed [s]
   double burst_period_sec =
-      0.0;  ///< samples wait and are delivered together at multiples of this [s]; 0: at once
-  double stamp_offset_sec =
-      0.0;  ///< of the stamp after the true time of measurement; negative: before it [s]
-  double estimate_delay_sec = 0.01;  ///< age of the velocity that the vehicle's own velocity loop acts on [s]
-  double position_noise_m = 0.004;   ///< white noise, standard deviation of each axis [m]
-  double velocity_noise_mps = 0.02;  ///< white noise, each axis [m/s]
+      0.0;  ///< samples are collected and delivered together at multiples of this; 0: at once [s]
+  double stamp_offset_sec = 0.0;     ///< error of the stamp; positive: after the time of measurement [s]
+  double estimate_delay_sec = 0.01;  ///< age of the velocity in the vehicle's own velocity loop [s]
+  double position_noise_m = 0.004;   ///< white noise of the position, standard deviation per axis [m]
+  double velocity_noise_mps = 0.02;  ///< white noise of the velocity, standard deviation per axis [m/s]
   double velocity_bias_mps =
-      0.0;  ///< steady horizontal error of the velocity, fixed in the body; where to: drawn
-  double velocity_bias_spread_mps =
-      0.0;  ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
+      0.0;  ///< steady horizontal velocity error, fixed in the body; random direction [m/s]
+  double velocity_bias_spread_mps = 0.0;  ///< half range of the random size of velocity_bias_mps [m/s]
   double velocity_wander_mps =
-      0.0;  ///< error of the velocity that comes and goes, each horizontal axis [m/s]
-  double velocity_wander_correlation_sec = 3.5;  ///< how long such an error lasts [s]
-  double own_bias_part = 0.0;  ///< part of these errors on which the vehicle's own velocity loop acts, too
-  double attitude_noise_rad = 0.004;  ///< white noise, each axis [rad]
-  double heading_error_rad = 0.0;  ///< steady error of the heading, which the positions do not share: drawn
-                                   ///< up to this, either way [rad]
-  double scale_error = 0.0;        ///< of horizontal movement: the part reported beyond the true one
-  double wander_m = 0.0;  ///< error that comes and goes, standard deviation of each horizontal axis [m]
-  double wander_correlation_sec = 5.0;  ///< how long such an error lasts [s]
-  double drift_m_per_sqrt_sec = 0.01;   ///< random walk of the position, each horizontal axis [m/sqrt(s)]
+      0.0;  ///< slowly varying velocity error, standard deviation per horizontal axis [m/s]
+  double velocity_wander_correlation_sec = 3.5;  ///< correlation time of velocity_wander_mps [s]
+  double own_bias_part = 0.0;         ///< share of the velocity errors in the vehicle's own velocity loop
+  double attitude_noise_rad = 0.004;  ///< white noise of the attitude, standard deviation per axis [rad]
+  double heading_error_rad = 0.0;     ///< steady heading error that positions do not show: drawn up to this,
+                                      ///< either way [rad]
+  double scale_error = 0.0;           ///< relative error of reported horizontal motion; positive: too long
+  double wander_m = 0.0;  ///< slowly varying position error, standard deviation per horizontal axis [m]
+  double wander_correlation_sec = 5.0;  ///< correlation time of wander_m [s]
+  double drift_m_per_sqrt_sec = 0.01;   ///< random walk of the position per horizontal axis [m/sqrt(s)]
   double height_drift_m_per_sqrt_sec = 0.004;  ///< random walk of the height [m/sqrt(s)]
   double yaw_drift_rad_per_sqrt_sec = 0.0015;  ///< random walk of the heading [rad/sqrt(s)]
   double height_factor_per_m =
-      0.0;  ///< horizontal noise and drift grow by this part for each metre above ground [1/m]
+      0.0;  ///< relative growth of horizontal noise and drift per metre above ground [1/m]
   double texture_quality =
-      1.0;  ///< of the ground; horizontal noise and drift are divided by it, by 0.05 at least
+      1.0;  ///< texture of the ground: divides horizontal noise and drift; at least 0.05 counts
   std::string twist_frame =
-      "body";  ///< axes of the velocity in odometry messages: body, or those of odom (world)
+      "body";  ///< axes of the velocity in odometry messages: body, or world for those of odom
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 5.0, 400.0);
@@ -158,20 +154,18 @@ struct OdometryParams {
   }
 };
 
-/// What is wrong with the attitude estimator and the inertial sensors.
+/// Errors of the attitude estimator and the inertial sensors.
 struct ImuParams {
-  double rate_hz = 100.0;    ///< samples a second [1/s]
-  double latency_sec = 0.0;  ///< from measurement to delivery [s]
-  double stamp_offset_sec =
-      0.0;                      ///< of the stamp after the true time of measurement; negative: before it [s]
-  double roll_bias_rad = 0.0;   ///< constant error of roll [rad]
-  double pitch_bias_rad = 0.0;  ///< constant error of pitch [rad]
-  double attitude_noise_rad = 0.006;      ///< error of roll and of pitch, standard deviation [rad]
-  double attitude_correlation_sec = 0.5;  ///< how long such an error lasts [s]; 0: white
-  double gyro_bias_radps =
-      0.0;  ///< constant error drawn from the seed, standard deviation of each axis [rad/s]
-  double gyro_noise_radps = 0.004;         ///< white noise, each axis [rad/s]
-  double accelerometer_noise_mps2 = 0.08;  ///< white noise, each axis [m/s^2]
+  double rate_hz = 100.0;                 ///< samples per second [1/s]
+  double latency_sec = 0.0;               ///< from measurement to delivery [s]
+  double stamp_offset_sec = 0.0;          ///< error of the stamp; positive: after the time of measurement [s]
+  double roll_bias_rad = 0.0;             ///< constant error of roll [rad]
+  double pitch_bias_rad = 0.0;            ///< constant error of pitch [rad]
+  double attitude_noise_rad = 0.006;      ///< error of roll and pitch, standard deviation [rad]
+  double attitude_correlation_sec = 0.5;  ///< correlation time of attitude_noise_rad; 0: white noise [s]
+  double gyro_bias_radps = 0.0;     ///< constant gyroscope error, drawn; standard deviation per axis [rad/s]
+  double gyro_noise_radps = 0.004;  ///< white noise of the gyroscope, each axis [rad/s]
+  double accelerometer_noise_mps2 = 0.08;  ///< white noise of the accelerometer, each axis [m/s^2]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 5.0, 400.0);

@@ -3,7 +3,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-// Behind a satellite receiver and a compass: errors come and go, they do not grow.
+// With a satellite receiver and a compass, errors vary slowly but do not grow.
 void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
   odometry.rate_hz = 50.0;
   odometry.wander_m = wander_m;
@@ -13,7 +13,7 @@ void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
   odometry.twist_frame = "body";
 }
 
-// A ramp to the setpoint and a pull to where it leads: it overshoots, and after a stop it comes back.
+// A ramp to the setpoint and a pull to where it leads: the vehicle overshoots, and returns after a stop.
 void setArduCopter40(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.03;
   vehicle.yaw_rate_gain = 1.02;
@@ -31,8 +31,8 @@ void setArduCopter40(QuadrotorParams& vehicle, OdometryParams& odometry) {
   odometry.burst_period_sec = 0.034;
 }
 
-// The same with WPNAV_ACCEL and a gyro's drift as shipped: slower to change; its velocity and its heading are
-// off.
+// As setArduCopter40, but with default WPNAV_ACCEL and gyro drift: slower changes, biased velocity and
+// heading.
 void setArduCopter40AsShipped(QuadrotorParams& vehicle, OdometryParams& odometry) {
   setArduCopter40(vehicle, odometry);
   vehicle.setpoint_acceleration_mps2 = 1.0;
@@ -42,7 +42,7 @@ void setArduCopter40AsShipped(QuadrotorParams& vehicle, OdometryParams& odometry
   odometry.heading_error_rad = 0.08;
 }
 
-// A setpoint limited in acceleration and jerk that is fed forward: no overshoot, a slow end.
+// The setpoint has limits on acceleration and jerk and is fed forward: no overshoot, a slow end.
 void setArduCopter43(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.012;
   vehicle.yaw_rate_gain = 0.84;
@@ -60,7 +60,7 @@ void setArduCopter43(QuadrotorParams& vehicle, OdometryParams& odometry) {
   odometry.jitter_sec = 0.015;
 }
 
-// PX4's gains as shipped (MPC_XY_VEL_P_ACC 1.8, _I_ACC 0.4); nothing holds its place in OFFBOARD by velocity.
+// PX4's default gains (MPC_XY_VEL_P_ACC 1.8, _I_ACC 0.4). Velocity in OFFBOARD holds no place.
 void setPx4Gps(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_time_constant_sec = 0.55;
   vehicle.velocity_integral_per_sec = 0.22;
@@ -79,7 +79,7 @@ void setPx4Gps(QuadrotorParams& vehicle, OdometryParams& odometry) {
   odometry.jitter_sec = 0.07;
 }
 
-// Whatever flies it, it takes 2 s to reach 1.2 m/s.
+// The vehicle takes 2 s to reach 1.2 m/s, whatever the autopilot.
 void setSlow(QuadrotorParams& vehicle) { vehicle.setpoint_acceleration_mps2 = 0.6; }
 
 void setCrisp(QuadrotorParams& vehicle, OdometryParams& odometry) {

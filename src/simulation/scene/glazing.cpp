@@ -9,7 +9,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr int kCells = 16;  // along each side of a pane: between their corners the mirrored part is linear
+constexpr int kCells = 16;  // per side of a pane; reflectance is interpolated linearly between cell corners
 
 constexpr double kRefractiveIndex = 1.52;
 
@@ -17,7 +17,7 @@ double square(double value) { return value * value; }
 
 double ofBothFaces(double of_one) { return 2.0 * of_one / (1.0 + of_one); }
 
-// From clip coordinates to those of a texture that is the whole image.
+// From clip coordinates to texture coordinates over the whole image.
 Eigen::Matrix4d textureFromClip() {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() *= 0.5;

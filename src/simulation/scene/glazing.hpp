@@ -11,28 +11,28 @@
 
 namespace window_ingress::simulation {
 
-/// Part of the light that a pane of window glass mirrors, both faces together: Fresnel's law for light
-/// without polarisation, and all that goes to and fro between the faces.
+/// Reflectance of a pane of window glass, both faces together: Fresnel's law for unpolarised light, with all
+/// multiple reflections between the faces.
 double paneReflectance(double cos_incidence);
 
-/// In front of the plane and behind it change places.
+/// Swaps the sides in front of and behind the plane.
 Eigen::Isometry3d mirrorAt(double x_m);
 
-/// The panes of a scene, all in one plane. What they mirror is an image of its own, taken by the mirrored
-/// camera with the same pixels; laid over what is seen through them, each point by its own part.
+/// The panes of a scene, all in one plane. Their reflection is a separate image, taken by the mirrored camera
+/// with the same pixels. It is blended over the view through the panes, with the reflectance at each point.
 class Glazing {
  public:
   /// \throws std::runtime_error if OpenGL refuses
   void create(const GlFunctions& gl, const geometry::PinholeCamera& camera, const std::vector<Pane>& panes);
 
-  /// Part of the image in which panes may be seen; nothing of them is seen from the room.
+  /// Part of the image in which panes may be visible; from inside the room they are invisible.
   cv::Rect partIn(const Eigen::Isometry3d& T_camera_window) const;
   Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) const;
 
-  /// What is drawn between these two is what the panes mirror: only what lies before them.
+  /// Draws between these two calls go to the reflection, which contains only objects in front of the panes.
   void beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_mirrored) const;
   void endMirror(const GlFunctions& gl) const;
-  /// Over the image as drawn; leaves its alpha channel as it is, and OpenGL's arrays pointing elsewhere.
+  /// Draws the panes over the image. Keeps the alpha channel, but changes OpenGL's array pointers.
   void draw(const GlFunctions& gl, const Eigen::Matrix4d& projection,
             const Eigen::Isometry3d& T_camera_window);
 
@@ -40,7 +40,7 @@ class Glazing {
   struct Point {
     std::array<float, 3> position;  // window frame [m]
     std::array<float, 4> mirrored;  // texture coordinates, homogeneous
-    std::array<float, 4> colour;    // white; its alpha is the part that is mirrored
+    std::array<float, 4> colour;    // white; alpha: reflectance
   };
   void addPane(const Pane& pane, const Eigen::Matrix4d& texture_from_window, const Eigen::Vector3d& eye);
 
@@ -51,8 +51,8 @@ class Glazing {
   std::vector<GLuint> corners_;
 };
 
-/// The smallest part of the image that holds all these points; all of it if one of them is not in front of
-/// the camera.
+/// The smallest part of the image that contains all these points; the whole image if a point is not in front
+/// of the camera.
 cv::Rect partAround(const geometry::PinholeCamera& camera, const std::vector<Eigen::Vector3d>& points_camera);
 
 }  // namespace window_ingress::simulation

@@ -111,7 +111,7 @@ std::vector<Rectangle> clearHoles(const Scenario& scenario) {
   return holes;
 }
 
-// Wide enough for all that opens into it.
+// The room's walls, wide enough for all openings into the room.
 Rectangle roomWalls(const Scenario& scenario) {
   const Rectangle wall = frontWall(scenario);
   const double half_m =

@@ -21,7 +21,7 @@ struct Closure {
 
 const Closure& closureOf(const std::string& closed_by) {
   static const std::map<std::string, Closure> closures{
-      {"glass", {Texture::kPlain, {170, 165, 155}, kPaneDepth_m, true}},  // of the dirt on it
+      {"glass", {Texture::kPlain, {170, 165, 155}, kPaneDepth_m, true}},  // colour of its dirt
       {"tinted_glass", {Texture::kGlass, {255, 255, 255}, kPaneDepth_m, true}},
       {"curtain", {Texture::kCurtain, {214, 206, 190}, kPaneDepth_m, true}},
       {"blinds", {Texture::kLouvres, {222, 222, 216}, kPaneDepth_m, false}},
@@ -48,7 +48,7 @@ void addBars(const Fitting& fitting, double pane_m, Mesh& mesh) {
     mesh.addBox(box(pane_m - 0.03, pane_m, {right_m, left_m, z_m - half_m, z_m + half_m}), fitting.frame);
 }
 
-// Nothing is to be seen of a clear pane but the dirt on it and what it mirrors.
+// A clear pane shows only its dirt and its reflection.
 void addClearPane(const Fitting& fitting, double pane_m, const Surface& dirt, Scene& scene) {
   constexpr double kBefore_m = 0.001, kMin_m = 0.004, kMax_m = 0.03;
   const Rectangle& face = fitting.opening;
@@ -79,7 +79,7 @@ void addClosure(const Fitting& fitting, double pane_m, Scene& scene) {
   scene.obstacles.push_back({fitting.closed_name, box(pane_m, scene.opening_depth_m, opening)});
 }
 
-// The strips of wall beside a frame that it keeps the sun from.
+// The strips of wall in the shadow of a frame.
 void addFrameShadow(const Scenario& scenario, const Rectangle& outer, double front_m, Mesh& mesh) {
   constexpr double kBefore_m = 0.0008, kMax_m = 0.12;
   const Lighting light = mesh.lighting();

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kGrazing = 0.02;  // sunlight along the wall does not enter
+constexpr double kGrazing = 0.02;  // with a smaller angle to the wall, sunlight does not enter
 constexpr double kPaneTransmission = 0.85;
 
 Vector3d factors(const ColourParams& colour) { return Vector3d(colour.r, colour.g, colour.b) / 255.0; }
@@ -18,16 +18,16 @@ Vector3d towardsSun(const HouseParams& house) {
           std::sin(house.daylight.sun_elevation_rad)};
 }
 
-// Cuts `region` down to where the sun shines through a hole in the plane `x_m`.
+// Restricts `region` to where the sun shines through a hole in the plane `x_m`.
 void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Vector3d& sun) {
-  const double aside = sun.y() / sun.x(), up = sun.z() / sun.x();  // of the sun's ray, for each metre of x
+  const double aside = sun.y() / sun.x(), up = sun.z() / sun.x();  // slope of the sun's ray, per metre of x
   region.push_back({Vector3d(-aside, 1, 0), hole.left_m - aside * x_m});
   region.push_back({Vector3d(aside, -1, 0), aside * x_m - hole.right_m});
   region.push_back({Vector3d(-up, 0, 1), hole.top_m - up * x_m});
   region.push_back({Vector3d(up, 0, -1), up * x_m - hole.bottom_m});
 }
 
-// The ground before the house, when the sun stands behind it.
+// The house's shadow on the ground in front, with the sun behind the house.
 std::vector<HalfSpace> houseShadow(const Scenario& scenario, const Vector3d& sun) {
   std::vector<HalfSpace> region;
   Rectangle house = frontWall(scenario);
@@ -39,7 +39,7 @@ std::vector<HalfSpace> houseShadow(const Scenario& scenario, const Vector3d& sun
   return region;
 }
 
-// Nothing if the sun does not come in.
+// Empty if no sun enters the room.
 std::vector<HalfSpace> sunInRoom(const Scenario& scenario, const Vector3d& sun) {
   std::vector<HalfSpace> region;
   const double front_m = scenario.window.wallFront() + scenario.house.wall_thickness_m;

@@ -1,4 +1,4 @@
-/// Parts of which `buildScene` makes a world. All take and give coordinates of the target's window frame.
+/// Parts from which `buildScene` makes a world. All coordinates are in the target's window frame.
 #pragma once
 
 #include <optional>
@@ -26,15 +26,15 @@ struct Rectangle {
 /// A window in the front wall, the target or another one.
 struct Fitting {
   Rectangle opening;
-  double frame_width_m, frame_front_m;  // the frame reaches from there to the wall
+  double frame_width_m, frame_front_m;  // the frame extends from frame_front_m to the wall
   Surface frame, reveal;
   std::string surround, closed_by, bars;
-  std::string frame_name, closed_name;  // what a contact with it is called
-  double dirt;                          // of its glass
+  std::string frame_name, closed_name;  // names in a report of a contact
+  double dirt;                          // part of its glass that is covered by dirt
 };
 
 Surface painted(const ColourParams& colour, Texture texture = Texture::kPlain);
-/// One of the textures that a scenario names for walls.
+/// The texture for a wall, by its name in a scenario.
 Texture wallTexture(const std::string& name);
 Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face);
 
@@ -43,24 +43,24 @@ Lighting daylight(const Scenario& scenario);
 Lighting roomLight(const Scenario& scenario);
 Lighting skyLight(const Scenario& scenario);
 std::optional<Fog> fogOf(const Scenario& scenario);
-/// Height of the lower border of the shadow that the eaves throw on an upright plane.
+/// Height of the lower border of the eaves' shadow on an upright plane.
 double eavesShadow(const Scenario& scenario, double x_m);
-/// Daylight on the inner faces of an opening whose front lies at `x_m`.
+/// Daylight on the inner faces of an opening with its front at `x_m`.
 Lighting revealLight(const Scenario& scenario, const Rectangle& opening, double x_m);
 
 // --- walls (scene_walls.cpp)
-/// The face of a wall at `x_m` towards the outside (or towards the room), with holes. Cut along the lines of
-/// all holes, so that no vertex lies on another's side: no cracks. What lies above `shadow_z_m` gets no sun.
+/// The face of a wall at `x_m`, towards the outside or the room, with holes. The face is cut along the lines
+/// of all holes, so that no vertex lies on another's side (no cracks). Parts above `shadow_z_m` get no sun.
 void addWallFace(Mesh& mesh, double x_m, bool outside, const Rectangle& wall,
                  const std::vector<Rectangle>& holes, const Surface& surface, double shadow_z_m);
-/// Four bars around an opening from x0 to x1, without their inner faces.
+/// Four bars around an opening from x0 to x1, without inner faces.
 void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, double x1,
               const Surface& surface);
 /// The inner faces of an opening from x0 to x1.
 void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface);
 /// An image over a rectangle, towards the outside.
 void addPane(Mesh& mesh, double x_m, const Rectangle& face, const Surface& surface);
-/// What is solid of a wall between x0 and x1.
+/// The solid parts of a wall between x0 and x1.
 void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& wall,
                   const std::vector<Rectangle>& holes, double x0, double x1);
 void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& solid,
@@ -68,14 +68,14 @@ void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& 
 
 // --- what stands where (scene.cpp)
 constexpr double kOverhang_m = 0.45;  // of the roof
-/// The roof, as something to run into.
+/// The roof as an obstacle.
 Eigen::AlignedBox3d roofBox(const Scenario& scenario);
 Rectangle frontWall(const Scenario& scenario);
 Rectangle roomWalls(const Scenario& scenario);
 Rectangle backWindow(const Scenario& scenario);
 Rectangle targetOpening(const Scenario& scenario);
 Rectangle openingOf(const Scenario& scenario, const DoorParams& door);
-/// Through which the room is seen: the target and other windows, if open or of clear glass.
+/// Holes through which the room is visible: the target and other windows, if open or of clear glass.
 std::vector<Rectangle> clearHoles(const Scenario& scenario);
 
 // --- the parts

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The inside of a box; its front has holes.
+// The inside of a box with holes in its front.
 struct Shell {
   Rectangle walls;
   double front_m, back_m;
@@ -17,7 +17,7 @@ Shell roomShell(const Scenario& scenario, const Scene& scene) {
   return {roomWalls(scenario), scene.opening_depth_m, scene.opening_depth_m + scenario.house.room_depth_m};
 }
 
-// Nothing of it stands in the way of somebody who comes through the middle.
+// Neither blocks the way through the middle.
 void addShelfAndSofa(const Shell& room, Scene& scene) {
   const Surface oak = painted({150, 110, 75}, Texture::kWood),
                 cloth = painted({120, 60, 60}, Texture::kPlaster);
@@ -93,7 +93,7 @@ void addShell(Mesh& mesh, const Shell& shell, const std::vector<Rectangle>& hole
   mesh.addQuad(corner, deep, across, floor);
 }
 
-// A second shell behind the first, so that nothing shines through where the sun's border cuts it.
+// A second shell behind the first, so that nothing shines through where the sun's border cuts the first.
 void addBacking(Mesh& mesh, const Shell& shell, const Surface& paper) {
   constexpr double kBehind_m = 0.01;
   const Lighting light = mesh.lighting();

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where it lies.
+/// Dimensions of the roof.
 struct Roof {
   double depth_m, side_m, low_m, high_m;
 };
@@ -75,7 +75,7 @@ void addGarden(Scene& scene) {
   addTree(scene, -13, -20.5, 5.0);
 }
 
-// Clouds on a plane overhead, haze around the horizon: no corners that a detector could like.
+// Clouds on a plane overhead, haze around the horizon: no corners that a detector could find.
 void addSky(const Scenario& scenario, Scene& scene) {
   const Lighting outdoors = scene.mesh.lighting();
   scene.mesh.setLighting(skyLight(scenario));

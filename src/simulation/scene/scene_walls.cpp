@@ -93,7 +93,7 @@ void addInnerFaces(Mesh& mesh, const Rectangle& opening, double x0, double x1, c
 
 }  // namespace
 
-// Behind each face lies a second one: where the sun's border cuts the first, nothing shines through.
+// A second face lies behind each: where the border of sunlight cuts the first, nothing shines through.
 void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
   constexpr double kBehind_m = 0.002;
   const Lighting light = mesh.lighting();

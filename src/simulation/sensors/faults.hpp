@@ -20,19 +20,20 @@
 
 namespace window_ingress::simulation {
 
-/// The way of one kind of data out of the world or into it: what is put in comes out at once, unless a fault
-/// acts. Then some of it is lost, late, repeated or spoiled. Times must not decrease.
+/// The path of one kind of data out of the world or into it. Without a fault, values pass at once. During a
+/// fault values are lost, late, repeated or spoiled. Times must not decrease.
 ///
-/// `Traits::repeat(old, fresh)`: the old value as it is said again in place of the fresh one.
+/// `Traits::repeat(old, fresh)`: the old value in the form in which it replaces the fresh one.
 /// `Traits::spoil(value, fault)`: for the kinds "garbage" and "wrong".
 ///
-/// When a fault ends, what it still held back is lost: order is kept, and nothing of it is felt later on.
+/// The end of a fault discards the values that are still delayed: this keeps the order and leaves no later
+/// effect.
 template <typename Value, typename Traits>
 class FaultLine {
  public:
   explicit FaultLine(Traits traits = {}) : traits_(std::move(traits)) {}
 
-  /// \param fault what acts now, or none
+  /// \param fault the acting fault, or null
   void put(double now_sec, Value value, const FaultParams* fault) {
     notice(fault);
     if (fault == nullptr) {
@@ -45,7 +46,7 @@ class FaultLine {
     }
   }
 
-  /// The next of what has arrived by now, in order; to be called until there is nothing.
+  /// The next value that has arrived, in order; call until empty.
   std::optional<Value> take(double now_sec, const FaultParams* fault) {
     notice(fault);
     for (; !held_.empty() && held_.front().first <= now_sec + 1e-9; held_.pop_front())
@@ -57,7 +58,7 @@ class FaultLine {
   }
 
  private:
-  static constexpr std::size_t kMaxReady = 1000;  // what nobody takes is forgotten
+  static constexpr std::size_t kMaxReady = 1000;  // older values that nobody takes are dropped
 
   void makeReady(Value value) {
     ready_.push_back(std::move(value));
@@ -83,7 +84,7 @@ class FaultLine {
 
   void change(Value& value, const FaultParams& fault) {
     if (fault.kind == "stuck") {
-      if (!before_) before_ = value;  // stuck from the start: the first is repeated
+      if (!before_) before_ = value;  // stuck from the start: repeats the first value
       value = traits_.repeat(*before_, value);
     } else if (fault.kind == "garbage" || fault.kind == "wrong") {
       traits_.spoil(value, fault);
@@ -98,35 +99,34 @@ class FaultLine {
   std::deque<Value> ready_;
 };
 
-/// All faults of a world: those of its scenario and those injected meanwhile.
+/// All faults of a world: from the scenario, and injected later.
 class FaultPlan {
  public:
   explicit FaultPlan(const std::vector<FaultParams>& faults) : faults_(faults.begin(), faults.end()) {}
 
-  /// \throws InputError if it is out of range or there can be no such fault
+  /// \throws InputError if the fault is out of range or impossible
   void inject(const FaultParams& fault);
 
-  /// What acts on this unit at this time: of several the one that began last, of those the last named. Stays
-  /// the same object while it acts.
+  /// The fault acting on this unit at this time: the one that began last, or of several such the last in the
+  /// list. Returns the same object while the fault acts.
   const FaultParams* acting(const std::string& unit, double now_sec) const;
-  /// How far all slides together have moved the position of odometry by this time; it stays where it slid to
-  /// [m].
+  /// Total shift of odometry's position by all slides up to this time; it stays after they end [m].
   Eigen::Vector3d slideAt(double now_sec) const;
 
  private:
-  std::deque<FaultParams> faults_;  // a deque: those that act keep their address
+  std::deque<FaultParams> faults_;  // a deque, because acting faults must keep their addresses
 };
 
-/// A moment at which the shutter was open, on its way to the image.
+/// One exposure on its way to an image.
 struct Exposure {
-  std::uint64_t index = 0;  ///< of the image that is shown, for its noise
+  std::uint64_t index = 0;  ///< number of the shown image, for its noise
   double stamp_sec = 0.0;
   VehicleTruth truth;  ///< at the stamp
-  VehicleTruth shown;  ///< from where the image shows the world, as beside a house at its resting place
+  VehicleTruth shown;  ///< vehicle as shown in the image, relative to a house at its resting place
   enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
 };
 
-/// Sensors that say the same again under new stamps.
+/// Repeats an old sample under a new stamp.
 template <typename Sample>
 struct Restamped {
   Sample repeat(const Sample& old, const Sample& fresh) const {
@@ -141,10 +141,10 @@ struct ImageTraits {
   void spoil(Exposure& exposure, const FaultParams& fault) const;
 };
 
-/// Does to the image what the exposure says.
+/// Applies `exposure.spoilt` to the image.
 void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed);
 
-/// Odometry, and the transform made of it.
+/// Odometry, and the transform derived from it.
 struct OdometryTraits : Restamped<OdometrySample> {
   void spoil(OdometrySample& sample, const FaultParams& fault) const;
 };
@@ -153,7 +153,7 @@ struct ImuTraits : Restamped<ImuSample> {
   void spoil(ImuSample& sample, const FaultParams& fault) const;
 };
 
-/// What stands in camera_info beside an image.
+/// The content of camera_info for an image.
 struct CalibrationSample {
   double stamp_sec = 0.0;
   geometry::PinholeCamera camera;

@@ -11,7 +11,7 @@
 
 namespace window_ingress::simulation {
 
-/// What the attitude estimator says: noisy.
+/// Noisy output of the attitude estimator and the inertial sensors.
 struct ImuSample {
   double stamp_sec = 0.0;
   Eigen::Quaterniond R_odom_base = Eigen::Quaterniond::Identity();
@@ -19,9 +19,8 @@ struct ImuSample {
   Eigen::Vector3d specific_force_base_mps2 = Eigen::Vector3d::Zero();  ///< at rest: +g on z (REP 145)
 };
 
-/// Attitude with an error of roll and pitch that lasts for a while (first-order Gauss-Markov), white noise on
-/// rates and forces, constant biases of roll, pitch and the gyroscope. Its heading is that of the drifted
-/// odometry.
+/// Attitude with a slowly varying error of roll and pitch (first-order Gauss-Markov), white noise on rates
+/// and forces, and constant biases of roll, pitch and gyroscope. The heading is that of the drifted odometry.
 class ImuSensor {
  public:
   ImuSensor(const ImuParams& params, std::uint32_t seed)
@@ -33,7 +32,7 @@ class ImuSensor {
     for (int axis = 0; axis < 3; ++axis) gyro_bias_radps_[axis] = bias.normal(params.gyro_bias_radps);
   }
 
-  /// At each physics step. `odometry_drift`: see `OdometrySensor::drift`.
+  /// Call at each physics step. `odometry_drift`: see `OdometrySensor::drift`.
   void update(double now_sec, const VehicleTruth& truth, const Eigen::Vector3d& specific_force_base_mps2,
               const Eigen::Isometry3d& odometry_drift) {
     if (!periodic_.due(now_sec)) return;
@@ -57,7 +56,7 @@ class ImuSensor {
     delay_.push(now_sec + params_.latency_sec, sample);
   }
 
-  /// The oldest sample that has arrived and was not taken; ask until there is none.
+  /// Takes the oldest sample that has arrived; call until empty.
   std::optional<ImuSample> take(double now_sec) { return delay_.take(now_sec); }
 
  private:

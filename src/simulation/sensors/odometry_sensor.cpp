@@ -76,7 +76,7 @@ void OdometrySensor::walk(const Eigen::Vector3d& position) {
   drift_ = geometry::makePose(turned, before + horizontalTimes(flow_factor_, step) - turned * position);
 }
 
-// A first-order Gauss-Markov process: its spread stays what it is.
+// A first-order Gauss-Markov process: its spread stays constant.
 void OdometrySensor::wander(double spread, double correlation_sec, RandomStream& random,
                             Eigen::Vector3d& error) const {
   const double kept = std::exp(-1.0 / (params_.rate_hz * correlation_sec));

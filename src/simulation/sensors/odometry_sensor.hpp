@@ -10,7 +10,7 @@
 
 namespace window_ingress::simulation {
 
-/// What the vehicle's odometry says: noisy, drifting.
+/// Noisy, drifting output of the vehicle's odometry.
 struct OdometrySample {
   double stamp_sec = 0.0;
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
@@ -18,25 +18,25 @@ struct OdometrySample {
   Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
 };
 
-/// White noise on everything, over an error that comes and goes and a slow random walk of position and
-/// heading. Heading walks about the vehicle, so that it does not throw the position about. Horizontal
-/// movement may be reported too long or too short (`scale_error`), velocity be off by a constant that turns
-/// with the vehicle (`velocity_bias_mps`) and by one that comes and goes (`velocity_wander_mps`), heading by
-/// another one (`heading_error_rad`), neither of which its positions show; horizontal errors grow with height
-/// and lack of texture, as those of optical flow do.
+/// Simulates odometry errors: white noise on all values, a slowly varying position error, and a slow random
+/// walk of position and heading. The heading walks about the vehicle, so that it does not move the position.
+/// Horizontal motion may have a scale error (`scale_error`). The velocity may have a constant error that
+/// turns with the vehicle (`velocity_bias_mps`) and a slowly varying one (`velocity_wander_mps`), the heading
+/// a constant one (`heading_error_rad`); the positions show none of these. Horizontal errors grow with height
+/// and lack of texture, as with optical flow.
 class OdometrySensor {
  public:
   OdometrySensor(const OdometryParams& params, std::uint32_t seed);
 
-  void update(double now_sec, const VehicleTruth& truth);  ///< at each physics step
-  /// The oldest sample that has arrived and was not taken; ask until there is none.
+  void update(double now_sec, const VehicleTruth& truth);  ///< call at each physics step
+  /// Takes the oldest sample that has arrived; call until empty.
   std::optional<OdometrySample> take(double now_sec) { return delivery_.take(now_sec); }
 
-  /// Pose of the true odometry frame in the drifted one: `p_reported = drift() * p_true`, where the vehicle
-  /// is.
+  /// Pose of the true odometry frame in the drifted one, at the vehicle's place: `p_reported = drift() *
+  /// p_true`.
   const Eigen::Isometry3d& drift() const { return drift_; }
-  /// What the vehicle itself believes at the time of the last update, on board and so without latency: with
-  /// scale and noise of the last sample, `estimate_delay_sec` old. Axes of the drifted odometry [m/s].
+  /// The vehicle's own velocity estimate at the last update, on board and so without latency: with scale and
+  /// noise of the last sample, `estimate_delay_sec` old. Axes of the drifted odometry [m/s].
   Eigen::Vector3d velocityEstimate() const;
 
  private:
@@ -51,10 +51,10 @@ class OdometrySensor {
   RandomStream walk_random_, noise_random_, wander_random_, velocity_wander_random_, delivery_random_;
   Periodic periodic_;
   DelayLine<OdometrySample> delivery_;
-  DelayLine<Eigen::Vector3d> own_velocity_;  // true velocities on their way to the vehicle's own estimate
+  DelayLine<Eigen::Vector3d> own_velocity_;  // true velocities, delayed for the vehicle's own estimate
   Eigen::Isometry3d drift_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Vector3d> last_position_;
-  double flow_factor_ = 1.0;  // of horizontal errors
+  double flow_factor_ = 1.0;  // factor on horizontal errors
   double heading_error_rad_;
   Eigen::Vector3d velocity_bias_base_mps_, own_bias_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wander_m_ = Eigen::Vector3d::Zero(), velocity_wander_mps_ = Eigen::Vector3d::Zero(),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPlaneTolerance = 1e-4;
 
-// What makes two faces one surface.
+// Faces with equal keys belong to one surface.
 using SurfaceKey = std::tuple<bool, Texture, std::array<unsigned char, 4>, std::array<long, 4>>;
 
 SurfaceKey keyOf(const Face& face, const std::array<unsigned char, 4>& colour) {
@@ -32,7 +32,7 @@ Face faceOf(const Mesh::Batch& batch, const Vertex* vertices) {
   return face;
 }
 
-// The planes through the image's sides (half a pixel outside of the outermost centres), pointing inwards.
+// The planes through the image's borders (half a pixel outside the outermost centres), pointing inwards.
 std::array<Eigen::Vector3d, 5> frustum(const geometry::PinholeCamera& camera) {
   const double left = (-1.0 - camera.cx) / camera.fx, right = (camera.width - camera.cx) / camera.fx;
   const double top = (-1.0 - camera.cy) / camera.fy, bottom = (camera.height - camera.cy) / camera.fy;

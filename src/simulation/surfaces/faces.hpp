@@ -1,5 +1,4 @@
-/// The scene's quadrilaterals one by one, as the renderer orders them and the edge smoother follows their
-/// sides.
+/// The scene's quadrilaterals, in the order of the renderer, for the edge smoother to follow their sides.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,21 +11,21 @@
 
 namespace window_ingress::simulation {
 
-inline constexpr double kNear_m = 0.03;  ///< nothing nearer to the camera is drawn
+inline constexpr double kNear_m = 0.03;  ///< nearest drawn distance from the camera
 
 struct Face {
   std::array<Eigen::Vector3d, 4> corners;  ///< window frame [m]
-  Eigen::Vector3d normal;                  ///< unit length; the face is seen from where it points to
+  Eigen::Vector3d normal;                  ///< unit length; points to the side from which the face is visible
   Mesh::Batch batch;
-  /// 1..255: of its surface, that is of all faces of one plane, texture and colour. Surfaces that many faces
-  /// apart in the mesh may share a number.
+  /// Number of the surface, 1..255: all faces of one plane, texture and colour. Surfaces that are far apart
+  /// in the mesh may share a number.
   std::uint8_t surface;
 };
 
-/// In the order of the mesh's batches and of the vertices within them.
+/// In the order of the mesh's batches and their vertices.
 std::vector<Face> facesOf(const Mesh& mesh);
 
-/// Numbers of the faces that may be seen, near ones first.
+/// Numbers of the faces that may be visible, near ones first.
 class VisibleFaces {
  public:
   void find(const std::vector<Face>& faces, const geometry::PinholeCamera& camera,

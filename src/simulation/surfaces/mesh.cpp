@@ -24,7 +24,7 @@ Eigen::Vector3d middleOf(const Polygon& polygon) {
   return sum / static_cast<double>(polygon.size());
 }
 
-// Every plane cuts every part, so that parts beside each other have their corners in common.
+// Every plane cuts every part, so that neighbouring parts share their corners.
 std::vector<Polygon> cutBy(const std::vector<HalfSpace>& planes, const Polygon& polygon) {
   std::vector<Polygon> parts{polygon};
   for (const auto& plane : planes) {

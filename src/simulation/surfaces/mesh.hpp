@@ -19,21 +19,21 @@ struct HalfSpace {
   double beyond(const Eigen::Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
-/// The sun, light from everywhere, and a soft light from one side; brightness of a face by its normal.
+/// The sun, ambient light, and a soft light from one side; gives the brightness of a face by its normal.
 struct Lighting {
   Eigen::Vector3d towards_sun = Eigen::Vector3d::UnitZ();
   double sun = 0.5;
   double ambient = 0.5;
   Eigen::Vector3d towards_lamp = Eigen::Vector3d::UnitZ();
   double lamp = 0.0;
-  Eigen::Vector3d sun_colour = Eigen::Vector3d::Ones();   ///< of the sun
-  Eigen::Vector3d soft_colour = Eigen::Vector3d::Ones();  ///< of all other light
-  /// Convex part of space: where all of these hold there is sun (or there is none, with `shadow`), elsewhere
-  /// it is the other way round. Empty: sun everywhere.
+  Eigen::Vector3d sun_colour = Eigen::Vector3d::Ones();   ///< colour of the sunlight
+  Eigen::Vector3d soft_colour = Eigen::Vector3d::Ones();  ///< colour of all other light
+  /// A convex part of space, where all half spaces hold: only there is sun, or with `shadow` only there is
+  /// none. Empty: sun everywhere.
   std::vector<HalfSpace> region = {};
   bool shadow = false;
 
-  /// Each channel, for a face in the sun or in the shadow.
+  /// Brightness of each channel, for a face in the sun or in the shadow.
   Eigen::Vector3d brightness(const Eigen::Vector3d& normal, bool in_sun) const {
     const double sky = 1.0 + 0.08 * normal.z();
     const double soft = ambient * sky + lamp * std::max(0.0, normal.dot(towards_lamp));
@@ -41,7 +41,7 @@ struct Lighting {
     return soft * soft_colour + direct * sun_colour;
   }
 
-  /// The sun reaches faces with this normal.
+  /// Whether the sun reaches faces with this normal.
   bool reaches(const Eigen::Vector3d& normal) const { return sun > 0.0 && normal.dot(towards_sun) > 0.0; }
   bool sunlit(const Eigen::Vector3d& point) const {
     const bool within = std::all_of(region.begin(), region.end(),
@@ -49,7 +49,7 @@ struct Lighting {
     return within != shadow;
   }
 
-  /// The same without the sun.
+  /// This lighting without the sun.
   Lighting inShadow() const {
     Lighting light = *this;
     light.sun = 0.0;
@@ -57,14 +57,14 @@ struct Lighting {
   }
 };
 
-/// A corner of a quadrilateral as the renderer wants it.
+/// A corner of a quadrilateral in the renderer's format.
 struct Vertex {
   std::array<float, 3> position;        ///< window frame [m]
   std::array<float, 2> uv;              ///< texture coordinates [tiles]
   std::array<unsigned char, 4> colour;  ///< red, green, blue, 255
 };
 
-/// How a surface looks.
+/// Appearance of a surface.
 struct Surface {
   Texture texture = Texture::kPlain;
   Eigen::Vector3d colour = Eigen::Vector3d::Constant(200.0);  ///< red, green, blue in white light, 0..255
@@ -77,33 +77,32 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// Parts of a convex polygon within and beyond a half space; either may be empty. What lies within 1e-9 m of
-/// the plane belongs to both.
+/// The parts of a convex polygon inside and outside a half space; either may be empty. Points within 1e-9 m
+/// of the plane belong to both.
 std::pair<Polygon, Polygon> split(const Polygon& polygon, const HalfSpace& half_space);
 
-/// Quadrilaterals by texture, shaded once, with the light that was set when they were added: cut where the
-/// border of sun and shadow runs over them.
+/// Quadrilaterals by texture. Each is shaded once, with the light set when it was added, and cut along the
+/// border of sun and shadow.
 class Mesh {
  public:
   explicit Mesh(const Lighting& lighting) : lighting_(lighting) {}
   void setLighting(const Lighting& lighting) { lighting_ = lighting; }
   const Lighting& lighting() const { return lighting_; }
-  /// Where what is added from now on stands: inside the house it can be seen from outside through the opening
-  /// only.
+  /// Place of the faces added from now on: from outside, indoor faces are visible through the opening only.
   void setIndoors(bool indoors) { indoors_ = indoors; }
 
-  /// A parallelogram with a corner at `origin` and the sides `u` and `v`; its face is towards u x v. The
-  /// texture is laid along u and v in its tile size, starting from `uv0_m`.
+  /// A parallelogram with a corner at `origin` and the sides `u` and `v`, facing u x v. The texture lies
+  /// along u and v in its tile size, starting from `uv0_m`.
   void addQuad(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                const Surface& surface, const Eigen::Vector2d& uv0_m = Eigen::Vector2d::Zero());
-  /// As `addQuad`, the texture stretched over the whole of it, its upper end at v.
+  /// As `addQuad`, with the texture stretched over the whole parallelogram; its upper end is at v.
   void addPicture(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                   const Surface& surface);
   void addBox(const Eigen::AlignedBox3d& box, const Surface& surface);
-  /// Flat and convex, at least four corners, its face where they run anticlockwise.
+  /// A flat, convex polygon with at least four corners, facing where they run anticlockwise.
   void addPolygon(const Polygon& polygon, const Surface& surface);
 
-  /// Four vertices a quadrilateral; the last two may be the same.
+  /// Four vertices per quadrilateral; the last two may be equal.
   struct Batch {
     bool indoors;
     Texture texture;

@@ -1,5 +1,5 @@
-/// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the images: glass,
-/// curtain, poster, printed window, chessboard.
+/// Procedural surfaces from a seed. All tile without a seam, except the images: glass, curtain, poster,
+/// printed window, chessboard.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace window_ingress::simulation {
 
-/// In the order in which they are drawn: what hides most comes first. The numbers feed the patterns' seeds.
+/// In drawing order: surfaces that hide most come first. The numbers feed the patterns' seeds.
 enum class Texture {
   kSiding = -3,
   kStone = -2,
@@ -30,7 +30,7 @@ enum class Texture {
   kChessboard = 15
 };
 
-/// Colour factors, 255 for "as the surface's own colour"; CV_8UC3 in RGB order, square, sides a power of two.
+/// Colour factors, 255 for the surface's own colour; CV_8UC3 in RGB order, square, sides a power of two.
 cv::Mat makeTexture(Texture texture, std::uint32_t seed);
 
 /// Side of one tile of the texture [m].

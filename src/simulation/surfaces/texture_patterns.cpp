@@ -8,7 +8,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-// Sum is `total`, no part below `least`.
+// Random parts with the sum `total`, none below `least`.
 std::vector<int> randomParts(cv::RNG& random, int total, int least, int most) {
   std::vector<int> parts;
   int left = total;
@@ -28,7 +28,7 @@ void wrappedRectangle(cv::Mat& image, const cv::Rect& rectangle, const cv::Scala
                   colour, cv::FILLED);
 }
 
-// Rows of the same height, each as `profile` has it: -> 0..1 from its lower to its upper border.
+// Rows of the same height; `profile` maps 0..1, from lower to upper border, to the brightness.
 template <typename Profile>
 cv::Mat slats(cv::RNG& random, int rows, double spread, const Profile& profile) {
   cv::Mat image(kTextureSize, kTextureSize, CV_32F);
@@ -42,7 +42,7 @@ cv::Mat slats(cv::RNG& random, int rows, double spread, const Profile& profile) 
 
 constexpr int kSize = kTextureSize;
 
-// Trees and hedge as a dark band with a ragged upper border around `row`; width of the border's bumps in
+// Trees and hedge as a dark band with a ragged upper border around `row`; `rough`: height of its bumps in
 // rows.
 cv::Mat treeLine(cv::RNG& random, double row, double rough) {
   cv::Mat mask(kSize, kSize, CV_8U, cv::Scalar(0)), profile = bumps(random, 8) + 0.4 * bumps(random, 32);
@@ -90,7 +90,7 @@ cv::Mat courses(cv::RNG& random, int columns, int rows, double joint_px, double 
   return image;
 }
 
-// Rows of random height, stones of random width and shade.
+// Rows of random height with stones of random width and shade.
 cv::Mat fieldStone(cv::RNG& random) {
   constexpr int kJoint_px = 6;
   cv::Mat image(kTextureSize, kTextureSize, CV_8UC3, cv::Scalar(172, 166, 156)), soft;
@@ -110,7 +110,7 @@ cv::Mat fieldStone(cv::RNG& random) {
   return roughened(random, image, 9.0);
 }
 
-// Lapped boards: each throws a narrow shadow on the one below it.
+// Lapped boards: each casts a narrow shadow on the one below.
 cv::Mat siding(cv::RNG& random) {
   const cv::Mat boards = slats(random, 8, 0.012, [](double up) {
     if (up > 0.95) return 150.0;
@@ -137,7 +137,7 @@ cv::Mat wood(cv::RNG& random) {
   return tinted(grain, {255, 235, 215});
 }
 
-// What a pane shows: a dim room, curtains at both sides, and over both the reflection of sky and garden.
+// A pane: a dim room, curtains at both sides, and over both the reflection of sky and garden.
 cv::Mat glass(cv::RNG& random) {
   cv::Mat image(kSize, kSize, CV_32FC3);
   const cv::Mat garden = treeLine(random, 300.0, 26.0);
@@ -187,8 +187,8 @@ cv::Mat poster(cv::RNG& random) {
   return image;
 }
 
-// A room seen through an open window from some metres away, printed: the back wall with its image, and the
-// inner faces of the opening as a narrow border, lit from the left.
+// Print of a room seen through an open window from some metres away: the back wall with its image, and the
+// opening's inner faces as a narrow border, lit from the left.
 cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall) {
   constexpr int kFace_px = 14;
   const cv::Point inner[] = {{kFace_px, kFace_px},
@@ -213,7 +213,7 @@ cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall) {
   return roughened(random, image, 2.0);
 }
 
-// Sky, trees, lawn: what a window on the other side of the house shows.
+// Sky, trees, lawn: the view through a window on the other side of the house.
 cv::Mat gardenView(cv::RNG& random) {
   cv::Mat image = bytes(verticalGradient({200, 222, 252}, {238, 244, 252}));
   image.setTo(cv::Scalar(92, 112, 74), treeLine(random, 270.0, 34.0));

@@ -1,4 +1,4 @@
-/// What the patterns of `makeTexture` are made of. All images are of kTextureSize.
+/// Building blocks of the patterns of `makeTexture`. All images are of kTextureSize.
 #pragma once
 
 #include <initializer_list>
@@ -9,16 +9,16 @@ namespace window_ingress::simulation {
 
 constexpr int kTextureSize = 512;
 
-/// Smooth noise of `cells` bumps along a side, wrapping around; zero mean, standard deviation near 1. CV_32F.
+/// Smooth noise with `cells` bumps per side, wrapping around; zero mean, standard deviation near 1. CV_32F.
 cv::Mat bumps(cv::RNG& random, int cells);
-/// Sum of such: {cells, amplitude} each.
+/// Sum of several `bumps`: {cells, amplitude} each.
 cv::Mat noise(cv::RNG& random, std::initializer_list<std::pair<int, double>> octaves);
-/// The same factor for all channels times a tint.
+/// A grey factor for all channels times a tint.
 cv::Mat tinted(const cv::Mat& grey, const cv::Scalar& tint);
 cv::Mat roughened(cv::RNG& random, const cv::Mat& image, double amplitude);
 
 // --- surfaces that tile
-/// Rows of stones with joints between; each stone has a shade of its own, every other row is shifted by half.
+/// Rows of stones with joints; each stone has its own shade, and every other row is shifted by half.
 cv::Mat courses(cv::RNG& random, int columns, int rows, double joint_px, double spread,
                 const cv::Scalar& stone, const cv::Scalar& joint);
 cv::Mat fieldStone(cv::RNG& random);

@@ -21,8 +21,8 @@ struct DrydenScale {
 };
 
 /// MIL-F-8785C, 3.7.3.4 (low altitude): L_w = h, L_u = L_v = h / (0.177 + 0.000823 h)^1.2 with h in feet,
-/// sigma_w = 0.1 W20, sigma_u = sigma_v = sigma_w / (0.177 + 0.000823 h)^0.4. It begins at 10 feet: lower
-/// heights count as that.
+/// sigma_w = 0.1 W20, sigma_u = sigma_v = sigma_w / (0.177 + 0.000823 h)^0.4. The model begins at 10 feet;
+/// lower heights count as 10.
 inline DrydenScale drydenScale(double height_m, double wind_20ft_mps) {
   const double height_ft = std::clamp(height_m / kFoot_m, 10.0, 1000.0);
   const double base = 0.177 + 0.000823 * height_ft;
@@ -31,21 +31,21 @@ inline DrydenScale drydenScale(double height_m, double wind_20ft_mps) {
   return {{level_mps, level_mps, up_mps}, {level_m, level_m, kFoot_m * height_ft}};
 }
 
-/// Mean wind at a height, from that at 20 feet: the standard's logarithmic profile over short grass
-/// (z0 = 0.15 feet), 3 feet at least [m/s].
+/// Mean wind at a height, from the wind at 20 feet: the standard's logarithmic profile over short grass (z0 =
+/// 0.15 feet), at least 3 feet [m/s].
 inline double windAtHeight(double height_m, double wind_20ft_mps) {
   const double height_ft = std::max(height_m / kFoot_m, 3.0), roughness_ft = 0.15;
   return wind_20ft_mps * std::log(height_ft / roughness_ft) / std::log(20.0 / roughness_ft);
 }
 
-/// Dryden turbulence as a vehicle meets it that moves through frozen air: spectra, one-sided over the angular
-/// frequency w, with T = L / airspeed,
+/// Dryden turbulence for a vehicle that moves through frozen air. Spectra, one-sided over the angular
+/// frequency w, with T = L / airspeed:
 ///
 ///     u:     sigma^2 2 T / pi / (1 + (T w)^2)
 ///     v, w:  sigma^2 T / pi (1 + 3 (T w)^2) / (1 + (T w)^2)^2
 ///
-/// White noise through the standard's filters, sampled exactly: the step's length changes neither variance
-/// nor correlation. Begins in the middle of it, not in calm.
+/// White noise through the standard's filters, sampled exactly: the length of a step changes neither variance
+/// nor correlation. Begins in the stationary state, not in calm air.
 class DrydenGusts {
  public:
   explicit DrydenGusts(std::uint32_t seed) : random_(seed, "wind") {
@@ -67,12 +67,12 @@ class DrydenGusts {
   }
 
  private:
-  // v or w over its standard deviation: two first-order lags in a row, of which the output takes
-  // sqrt(3) times the first and (1 - sqrt(3)) times the second.
+  // v or w, divided by its standard deviation: two first-order lags in series. The output is sqrt(3) times
+  // the first plus (1 - sqrt(3)) times the second.
   struct Across {
     double first = 0.0, second = 0.0;
-    // Transition exp(-s) [1 0; s 1] over s time constants; the noise is what makes up for the variance lost
-    // of the stationary [1/2 1/4; 1/4 1/4].
+    // Transition exp(-s) [1 0; s 1] over s time constants. The noise restores the variance lost from the
+    // stationary [1/2 1/4; 1/4 1/4].
     void step(double s, RandomStream& random) {
       const double kept = std::exp(-s), squared = kept * kept;
       const double lost = squared > 0.0 ? squared : 0.0, t = squared > 0.0 ? s : 0.0;

@@ -11,16 +11,15 @@
 
 namespace window_ingress::simulation {
 
-/// A vehicle that is simulated elsewhere: between the poses that are told it moves evenly, after the last one
-/// it stays.
+/// An external vehicle: moves evenly between the given poses, and stays at the last one.
 class FollowedVehicle {
  public:
   static constexpr double kMemorySec = 1.0;
 
   explicit FollowedVehicle(const Eigen::Isometry3d& T_odom_base) { truth_.T_odom_base = T_odom_base; }
 
-  /// The vehicle is there at that time. The first one counts at once. \throws std::invalid_argument unless
-  /// all numbers are finite and the times increase
+  /// Gives the vehicle's state at this time. The first one applies at once. \throws std::invalid_argument
+  /// unless all numbers are finite and the times increase
   void follow(const VehicleTruth& truth, double stamp_sec) {
     if (!geometry::isValidPose(truth.T_odom_base) || !truth.velocity_odom_mps.allFinite() ||
         !truth.angular_velocity_base_radps.allFinite() || !std::isfinite(stamp_sec))
@@ -39,9 +38,9 @@ class FollowedVehicle {
     flown_odom_mps_ = (truth_.T_odom_base.translation() - before.T_odom_base.translation()) / kMemorySec;
   }
 
-  /// As told, the twist, too.
+  /// The state as given, twist included.
   const VehicleTruth& truth() const { return truth_; }
-  /// Over the past second, by the places alone: a twist has a bias and noise that no place follows [m/s].
+  /// Velocity over the past second from positions alone, because a twist has bias and noise [m/s].
   const Eigen::Vector3d& flownVelocity() const { return flown_odom_mps_; }
 
  private:
@@ -76,7 +75,7 @@ class FollowedVehicle {
 
   VehicleTruth truth_;
   Eigen::Vector3d flown_odom_mps_ = Eigen::Vector3d::Zero();
-  std::deque<Waypoint> path_;  // of the past second, with the one before it
+  std::deque<Waypoint> path_;  // the past second, and one waypoint before it
 };
 
 }  // namespace window_ingress::simulation

@@ -8,7 +8,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-// Keeps the vertical part, shortens the horizontal one.
+// Keeps the vertical part and limits the horizontal one.
 Eigen::Vector3d limitTilt(Eigen::Vector3d force, double max_tilt_rad) {
   force.z() = std::clamp(force.z(), kMinThrust_mps2, kMaxThrust_mps2);
   force.head<2>() *=

@@ -12,24 +12,24 @@ namespace window_ingress::simulation {
 
 constexpr double kGravity_mps2 = 9.81;
 
-/// Bounds of the acceleration by thrust that the controllers ask for [m/s^2].
+/// Bounds of the commanded thrust, as acceleration [m/s^2].
 constexpr double kMinThrust_mps2 = 0.2 * kGravity_mps2;
 constexpr double kMaxThrust_mps2 = 2.0 * kGravity_mps2;
 
-/// Part of the way to its end that a first-order lag goes in one step.
+/// Fraction of a step that a first-order lag follows in one time step.
 inline double lagPart(double step_sec, double time_constant_sec) {
   return 1.0 - std::exp(-step_sec / time_constant_sec);
 }
 
-/// All motors as one: thrust follows what is asked for with a first-order lag, and is off by the error of its
-/// gain and by a payload of which the controllers know nothing.
+/// All motors as one: thrust follows its command with a first-order lag. Its gain has an error, and a payload
+/// reduces it; the controllers know neither.
 class Motors {
  public:
-  /// They start with what carries the vehicle.
+  /// Starts with the thrust that carries the vehicle.
   explicit Motors(const QuadrotorParams& params)
       : gain_((1.0 + params.thrust_gain_error) / params.massRatio()), wanted_mps2_(kGravity_mps2 / gain_) {}
 
-  /// Of the thrust given to the thrust wanted.
+  /// Actual thrust over commanded thrust.
   double gain() const { return gain_; }
   void set(double wanted_mps2) { wanted_mps2_ = wanted_mps2; }  ///< at once, without lag
   /// \return acceleration by thrust at the end of the step [m/s^2]
@@ -45,48 +45,48 @@ class Motors {
   double gain_, wanted_mps2_;
 };
 
-/// Wish for the vehicle's velocity controller, in odometry axes.
+/// Command for the vehicle's velocity controller, in odometry axes.
 struct VelocityCommand {
   Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
   double yaw_rate_radps = 0.0;
 };
 
-/// What the air does to the vehicle during a step.
+/// Effect of the air on the vehicle during a step.
 struct AirAtVehicle {
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d push_odom_mps2 = Eigen::Vector3d::Zero();  ///< beside drag, on a vehicle without payload
+  Eigen::Vector3d push_odom_mps2 = Eigen::Vector3d::Zero();  ///< beside drag, for a vehicle without payload
 };
 
-/// A quadrotor behind a velocity controller. It must tilt to accelerate, so that its camera nods with every
-/// move.
+/// A quadrotor with a velocity controller. It must tilt to accelerate, so that its camera nods with every
+/// motion.
 ///
 /// velocity error -> acceleration (`VelocityController`) -> tilt and thrust -> attitude by a second-order
-/// loop with limited rates: its closed answer to a small step is 1 / (T Tr s^2 + T s + 1), T the attitude
-/// time constant, Tr = `kRateTimeConstant_sec` that of the body rates. Rigid body, thrust along the body's z,
-/// drag linear in the speed through the air. The ground (z = 0) carries it. Payload makes all forces count
-/// for less.
+/// loop with limited rates. The closed loop answers a small step with 1 / (T Tr s^2 + T s + 1), T the
+/// attitude time constant, Tr = `kRateTimeConstant_sec` that of the body rates. Rigid body, thrust along the
+/// body's z, drag linear in airspeed. The ground (z = 0) carries the vehicle. Payload reduces the effect of
+/// all forces.
 class Quadrotor {
  public:
   static constexpr double kRateTimeConstant_sec = 0.03;
 
-  /// Starts at rest, trimmed for `wind_odom_mps` (if it does not stand on the ground) and for its payload.
+  /// Starts at rest, trimmed for its payload and, unless on the ground, for `wind_odom_mps`.
   Quadrotor(const QuadrotorParams& params, const Eigen::Isometry3d& T_odom_base,
             const Eigen::Vector3d& wind_odom_mps = Eigen::Vector3d::Zero());
 
-  /// A command that is not finite is ignored, as a lost one would be.
+  /// Ignores a command that is not finite, as if it were lost.
   void command(const VelocityCommand& command);
 
-  /// Moves on by `step_sec`. The controller sees `estimated_velocity_odom_mps` (axes of the true odom), not
-  /// the truth.
+  /// Simulates one step. The controller sees `estimated_velocity_odom_mps` (axes of the true odom), not the
+  /// true velocity.
   void step(double step_sec, const AirAtVehicle& air, const Eigen::Vector3d& estimated_velocity_odom_mps);
 
-  /// It hit something solid: it stops where it is, its motors stay off, and it falls until its centre is at
-  /// `rest_height_m` (or on the ground). There is no way back.
+  /// After a collision: stops the vehicle in place with motors off; it falls until its centre is at
+  /// `rest_height_m` or on the ground. This is final.
   void crash(double rest_height_m);
   bool crashed() const { return crashed_; }
 
   const VehicleTruth& truth() const { return truth_; }
-  /// What an accelerometer feels: at rest +g on z [m/s^2].
+  /// Output of an ideal accelerometer; at rest +g on z [m/s^2].
   Eigen::Vector3d specificForceBase() const { return specific_force_base_mps2_; }
 
  private:

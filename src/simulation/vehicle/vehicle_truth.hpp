@@ -4,7 +4,7 @@
 
 namespace window_ingress::simulation {
 
-/// The truth about the vehicle.
+/// True state of the vehicle.
 struct VehicleTruth {
   Eigen::Isometry3d T_odom_base =
       Eigen::Isometry3d::Identity();  ///< true pose, axes of odom without its drift

@@ -9,28 +9,27 @@
 
 namespace window_ingress::simulation {
 
-/// The vector, made `longest` long if it is longer.
+/// The vector, shortened to the length `longest` if it is longer.
 inline Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
   const double length = v.norm();
   return length > longest ? Eigen::Vector3d(v * (longest / length)) : v;
 }
 
-/// How an autopilot turns a velocity setpoint into an acceleration, each step and all axes alike:
+/// An autopilot's conversion of a velocity setpoint into an acceleration, in each step, for all axes:
 ///
 ///     r' = a,  a -> (gain * setpoint - r) / setpoint_time_constant, limited in size and in change
 ///     e' = r - v
 ///     acceleration = feed_forward * a + (r + hold * e - v) / velocity_time_constant + trim
 ///     trim' = integral / velocity_time_constant * (r - v)
 ///
-/// r is the shaped setpoint, e how far the vehicle lags behind where r leads.
-///
-/// v is the velocity as the vehicle estimates it. Without limits of the shaping, r is the setpoint. The trim
-/// rests while the acceleration is at its limit, and learns less from errors beyond 0.3 m/s: little wind-up.
+/// r is the shaped setpoint, e the vehicle's lag behind the position to which r leads, v the vehicle's
+/// estimated velocity. Without shaping limits, r is the setpoint. The trim is frozen while the acceleration
+/// is at its limit, and learns less from errors beyond 0.3 m/s, to limit wind-up.
 class VelocityController {
  public:
   explicit VelocityController(const QuadrotorParams& params) : params_(params) {}
 
-  /// The acceleration wanted, `trim()` included [m/s^2].
+  /// The wanted acceleration, including `trim()` [m/s^2].
   Eigen::Vector3d step(const Eigen::Vector3d& setpoint_mps, const Eigen::Vector3d& velocity_mps,
                        double step_sec) {
     shape(params_.velocity_gain * setpoint_mps, step_sec);
@@ -42,14 +41,14 @@ class VelocityController {
     const Eigen::Vector3d limited = shortened(wish, params_.max_acceleration_mps2);
     if (wish.isApprox(limited)) learnTrim(error, step_sec);
     Eigen::Vector3d asked = limited + trim_mps2_;
-    // A trim that was learnt beside a pull the other way must not keep it from braking.
+    // A trim learnt against an opposite pull must not prevent braking.
     const Eigen::Vector3d level(wish.x() + trim_mps2_.x(), wish.y() + trim_mps2_.y(), 0.0);
     asked.head<2>() = shortened(level, params_.max_acceleration_mps2).head<2>();
     return asked;
   }
 
   void setTrim(const Eigen::Vector3d& trim_mps2) { trim_mps2_ = trim_mps2; }
-  /// At rest where it is; keeps the trim.
+  /// Restarts at rest at the present place; keeps the trim.
   void restart() {
     reference_mps_.setZero();
     reference_mps2_.setZero();
@@ -63,10 +62,10 @@ class VelocityController {
     return limit > 0.0 ? limit : std::numeric_limits<double>::infinity();
   }
 
-  static constexpr double kLongestLag_m = 1.0;      // beyond, the place that it is pulled to comes along
-  static constexpr double kNearSetpoint_mps = 0.3;  // beyond, the trim learns the less the further
+  static constexpr double kLongestLag_m = 1.0;      // with a larger lag, the place to return to moves along
+  static constexpr double kNearSetpoint_mps = 0.3;  // beyond, the trim learns less, the larger the error
 
-  // A step of the setpoint hardly winds it up, and yet no lasting error is too great to be learnt away.
+  // A step of the setpoint hardly changes the trim, but any lasting error is compensated in the end.
   void learnTrim(const Eigen::Vector3d& error_mps, double step_sec) {
     const double rate = params_.velocity_integral_per_sec / params_.velocity_time_constant_sec;
     const double trust =

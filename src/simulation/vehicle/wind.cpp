@@ -6,7 +6,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kShelterDepth_m = 0.3;  // in the room, until it is as calm as it gets
+constexpr double kShelterDepth_m = 0.3;  // depth in the room at which the air is calmest
 constexpr double kSoftEdge_m = 0.05, kJetSpread = 0.1, kCoreDiameters = 5.0, kDallaValle = 10.0;
 
 // 1 within +-half, 0 beyond, with edges `soft_m` wide.
@@ -57,7 +57,7 @@ Eigen::Vector3d Wind::draughtAt(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d from(-side * before_m, p.y(), p.z());
   const double area_m2 = width_m * height_m;
   const double part = area_m2 / (area_m2 + kDallaValle * (nearest - from).squaredNorm());
-  const double aside = 0.5 + 0.5 * part;  // straight on at the opening, towards its middle from afar
+  const double aside = 0.5 + 0.5 * part;  // straight at the opening, towards its middle from afar
   const Eigen::Vector3d sink(0.5 * side * std::sqrt(area_m2), aside * nearest.y(), aside * nearest.z());
   return std::abs(speed_mps) * part * (sink - from).normalized();
 }

@@ -9,41 +9,41 @@
 
 namespace window_ingress::simulation {
 
-/// What the air has to know about the house, axes of the window.
+/// Dimensions of the house for the air, axes of the window.
 struct WallInAir {
-  bool open = true;  ///< there is an opening, about the origin
+  bool open = true;  ///< there is an opening around the origin
   geometry::OpeningSize opening;
-  double front_x_m = 0.0;     ///< of the wall's face outside
-  double back_x_m = 0.24;     ///< of the wall's face in the room
-  double half_width_m = 5.5;  ///< of the wall
+  double front_x_m = 0.0;     ///< outer face of the wall
+  double back_x_m = 0.24;     ///< inner face of the wall
+  double half_width_m = 5.5;  ///< half width of the wall
   double ground_z_m = -1.5;
-  double top_z_m = 1.6;  ///< of the wall
+  double top_z_m = 1.6;  ///< top of the wall
 };
 
-/// What moves the vehicle, axes of the window.
+/// Effect of the air on the vehicle, axes of the window.
 struct Air {
   Eigen::Vector3d wind_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d push_mps2 = Eigen::Vector3d::Zero();
 };
 
-/// Air around the house: steady wind and Dryden gusts outside, less of both in the room; a draught through
-/// the opening; a push towards the wall near it.
+/// Air around the house: steady wind and Dryden gusts outside, less of both in the room, a draught through
+/// the opening, and a push towards the wall near it.
 ///
-/// - Behind the wall's front, wind and gusts fall to `inside_part`, which they reach 0.3 m into the room.
-/// - Draught: full between the borders of the opening (5 cm soft edges). Downstream a free jet: its edges
-///   widen by 0.1 m a metre, its core ends after five hydraulic diameters and falls as 1/x from there.
-///   Upstream a sink after DallaValle: V A / (A + 10 r^2), r the distance to the opening, A its area, towards
-///   the opening.
+/// - Behind the wall's front, wind and gusts fall to `inside_part`, reached 0.3 m into the room.
+/// - Draught: full speed between the borders of the opening (5 cm soft edges). Downstream a free jet: its
+///   edges widen by 0.1 m per metre; its core ends after five hydraulic diameters, and then the speed falls
+///   as 1/x. Upstream a sink after DallaValle towards the opening: V A / (A + 10 r^2), r the distance to the
+///   opening, A its area.
 /// - Wall: `wall_push_mps2` exp(-gap / `wall_push_length_m`) towards the wall's face on the vehicle's side,
-///   where there is wall. An assumed shape: measurements near walls agree on suction that is gone within some
-///   rotor radii, not on a law.
+///   where there is wall. The shape is assumed: measurements near walls agree on suction that vanishes within
+///   some rotor radii, but not on a law.
 class Wind {
  public:
   Wind(const WindParams& params, const WallInAir& wall, double vehicle_half_length_m, std::uint32_t seed);
 
-  /// Without gusts [m/s].
+  /// Wind without gusts [m/s].
   Eigen::Vector3d steadyAt(const Eigen::Vector3d& position_m) const;
-  /// For a vehicle that is there and moves so, axes of the window.
+  /// Effect on a vehicle with this position and velocity, axes of the window.
   Air step(double step_sec, const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_mps);
 
  private:
