@@ -10,7 +10,7 @@ struct FaultParams {
   std::string unit = "image";  ///< part of the world with the fault
   std::string kind = "off";    ///< what the fault does to the unit
   double at_sec = 5.0;         ///< start of the fault, in the world's time [s]
-  double duration_sec = 2.0;   ///< duration [s]
+  double duration_sec = 2.0;   ///< duration of the fault [s]
   double rate_hz = 1.0;        ///< slow: remaining samples per second [1/s]
   double delay_sec = 1.0;      ///< delayed: additional delay of every sample [s]
   double off_sec = 0.5;        ///< intermittent: length of each gap; a gap comes first [s]

@@ -9,9 +9,9 @@ namespace window_ingress::simulation {
 /// The quadrotor and its autopilot. It must tilt to accelerate.
 struct QuadrotorParams {
   std::string profile = "default";   ///< autopilot whose values become the defaults of vehicle and odometry
-  double half_length_m = 0.20;       ///< half of the box along x, including the propellers [m]
-  double half_width_m = 0.20;        ///< half of the box along y [m]
-  double half_height_m = 0.07;       ///< half of the box along z [m]
+  double half_length_m = 0.20;       ///< half of the vehicle's box along x, including the propellers [m]
+  double half_width_m = 0.20;        ///< half of the vehicle's box along y [m]
+  double half_height_m = 0.07;       ///< half of the vehicle's box along z [m]
   double mass_kg = 1.5;              ///< mass for which the controllers are tuned [kg]
   double payload_kg = 0.0;           ///< additional mass, unknown to the controllers [kg]
   double thrust_gain_error = 0.0;    ///< relative error of the thrust: 0.1 gives 10 % more than wanted
