@@ -137,8 +137,8 @@ def commented(line, comment):
 
 
 def yaml_file(structs, kind, title):
-    lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by dev/write_parameter_files.py: the tools do not read it.",
-             *OWN_FILE.get(kind, ["# What differs goes into a file of your own, for launch files config:=FILE, for tools --params FILE."]),
+    lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by dev/write_parameter_files.py. Tools do not read this file.",
+             *OWN_FILE.get(kind, ["# Put changed values into your own file: config:=FILE for launch files, --params FILE for tools."]),
              *yaml_lines(structs, find(structs, "configuration", kind), "")]
     return "\n".join(lines) + "\n"
 
@@ -236,14 +236,15 @@ NODES = {  # node -> its struct and file
     "world": ("WorldNodeParams", "world.yaml"),
     "vehicle": ("navigation::VehicleParams", "vehicle.yaml"),
 }
-TITLES = {"vehicle": "The vehicle, said once for all nodes: below the name 'vehicle', beside the nodes' own."}
+TITLES = {"vehicle": "Parameters of the vehicle, shared by all nodes, below the name 'vehicle'."}
 OWN_FILE = {"WorldNodeParams": []}  # has none: arguments of sim.launch, and the scenario
 PARAMETERS_HEAD = """# Parameters
 
-Every parameter of every node, as `rosparam` knows it below the node's name, and the vehicle's, below `vehicle`; written by `dev/write_parameter_files.py`
-from the parameter structs of the headers, like the yaml files in `config/`. Keys that are unknown and values out of range
-are refused by name when a node starts. How to choose them: [tuning](../README.md#on-a-drone),
-[navigation](navigation.md), [pose](pose.md). The detector's own (`detector/…`) can be changed while it runs, by dynamic_reconfigure.
+Every parameter of every node, by its `rosparam` name below the node's name. The vehicle's parameters stand below `vehicle`.
+`dev/write_parameter_files.py` writes this page and the yaml files in `config/` from the parameter structs of the headers.
+A node that starts with an unknown key or a value out of range refuses it by name. How to choose values:
+[tuning](../README.md#on-a-drone), [navigation](navigation.md), [pose](pose.md). The detector's parameters (`detector/…`) can
+be changed at run time with dynamic_reconfigure.
 """
 
 
