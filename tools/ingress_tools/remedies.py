@@ -28,6 +28,8 @@ REMEDIES = (
     ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
     ("times as wide as it is high", WRONG_SIZE),
     ("opening looks like", WRONG_SIZE),
+    ("gated out: ", f"measure the opening (window_size:=W,H) and the camera's angles; where these are wrong, {AGAIN} "
+                    "camera_pose:=x,y,z,yaw,pitch,roll"),
     ("does not change any more", "restart the camera's driver"),
     ("it is advertised, but nothing is sent", "see what its publisher says, scripts/run rosnode info names its log; if it "
                                               "died: scripts/run rosnode cleanup, and start it again"),
@@ -36,6 +38,7 @@ REMEDIES = (
     ("in a failsafe", "read in the ground station what the autopilot says: battery, link, sensors"),
     ("not connected, ", "mend fcu_url:= of MAVROS: it does not reach its autopilot"),
     ("/state has fallen silent", "see what MAVROS says, and scripts/run rostopic hz its state"),
+    ("has fallen silent", "let its publisher repeat it, once a second or more often"),
     ("/state so far", f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE"),
     ("engaged", "arm, and switch to OFFBOARD or GUIDED: doc/autopilots.md"),
 )
