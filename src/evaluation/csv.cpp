@@ -82,7 +82,7 @@ double CsvReader::number(std::size_t column) const {
   const std::string field = text(column);
   char* end = nullptr;
   const double value = std::strtod(field.c_str(), &end);
-  if (field.empty() || *end != '\0') fail("'" + field + "' is no number");
+  if (field.empty() || *end != '\0') fail("'" + field + "' is not a number");
   return value;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 YAML::Node load(const std::string& file) {
   const YAML::Node root = loadYaml(file);
-  if (!root.IsMap()) refuse(file, "is no camera calibration: not a yaml mapping");
+  if (!root.IsMap()) refuse(file, "is not a camera calibration: not a yaml mapping");
   return root;
 }
 
@@ -25,16 +25,16 @@ std::vector<double> numbers(const YAML::Node& root, const std::string& key, cons
     const auto count = static_cast<double>(data.size());
     if (matrix["rows"].as<double>(1.0) * matrix["cols"].as<double>(count) == count) return data;
   } catch (const YAML::Exception&) {
-    refuse(file, key + ": no list of numbers called data in it");
+    refuse(file, key + ": has no list of numbers named data");
   }
-  refuse(file, key + ": rows times cols is not how many numbers its data has");
+  refuse(file, key + ": rows times cols is not the length of data");
 }
 
 int integer(const YAML::Node& root, const std::string& key, const std::string& file) {
   try {
     return root[key].as<int>();
   } catch (const YAML::Exception&) {
-    refuse(file, key + ": missing or no integer");
+    refuse(file, key + ": missing or not an integer");
   }
 }
 

@@ -26,7 +26,8 @@ std::string rangeFault(const Field& field, Number value) {
 std::string wordFault(const Field& field, const std::string& word) {
   const auto& allowed = field.allowed;
   const bool is_one = std::find(allowed.begin(), allowed.end(), word) != allowed.end();
-  return allowed.empty() || is_one ? "" : field.name + " = " + word + " is none of " + joined(allowed, ", ");
+  return allowed.empty() || is_one ? ""
+                                   : field.name + " = " + word + " is not one of " + joined(allowed, ", ");
 }
 
 // The fewest digits that read back as the same number, with a point: without one, ROS takes it for an int,
@@ -49,7 +50,7 @@ double number(const std::string& name, const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw InputError(name + ": '" + text + "' is no number");
+    throw InputError(name + ": '" + text + "' is not a number");
   return value;
 }
 

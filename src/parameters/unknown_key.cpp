@@ -9,17 +9,21 @@ namespace {
 
 // Ends of paths that were named differently in earlier versions.
 const std::pair<const char*, const char*> kMoved[] = {
-    {"navigator/vehicle", "'vehicle: {..}', beside the nodes: said once for all of them"},
-    {"tracker/fit", "'vehicle: {half_width_m: .., half_height_m: .., margin_m: ..}', beside the nodes"},
-    {"approach/margin_m", "'vehicle: {margin_m: ..}', beside the nodes"},
-    {"commit/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
-    {"filter/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
-    {"facade/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
-    {"input/max_future_sec", "'vehicle: {stamps: {max_future_sec: ..}}', beside the nodes"},
-    {"stamps", "'vehicle: {stamps: {..}}', beside the nodes: said once for all of them"},
-    {"image_is_rectified", "'vehicle: {image_is_rectified: ..}', beside the nodes"},
-    {"odom_frame", "'vehicle: {odom_frame: ..}', beside the nodes"},
-    {"base_frame", "'vehicle: {base_frame: ..}', beside the nodes"},
+    {"navigator/vehicle", "'vehicle: {..}', at the level of the node names, once for all nodes"},
+    {"tracker/fit",
+     "'vehicle: {half_width_m: .., half_height_m: .., margin_m: ..}', at the level of the node names"},
+    {"approach/margin_m", "'vehicle: {margin_m: ..}', at the level of the node names"},
+    {"commit/drift_m_per_sqrt_sec",
+     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
+    {"filter/drift_m_per_sqrt_sec",
+     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
+    {"facade/drift_m_per_sqrt_sec",
+     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
+    {"input/max_future_sec", "'vehicle: {stamps: {max_future_sec: ..}}', at the level of the node names"},
+    {"stamps", "'vehicle: {stamps: {..}}', at the level of the node names, once for all nodes"},
+    {"image_is_rectified", "'vehicle: {image_is_rectified: ..}', at the level of the node names"},
+    {"odom_frame", "'vehicle: {odom_frame: ..}', at the level of the node names"},
+    {"base_frame", "'vehicle: {base_frame: ..}', at the level of the node names"},
     {"filter/systematic_sigma_px", "'pose: {systematic_sigma_px: ..}'"},
     {"filter/gate_squares", "'nis_gate'"},
     {"tracker/gravity_sigma_rad", "'filter: {attitude_bias_sigma_rad: ..}'"},
@@ -82,7 +86,7 @@ std::string whatBecameOf(const std::string& path) {
   for (const auto& [end, now] : kMoved)
     if (endsWith(path, end)) return std::string("; it is now ") + now;
   for (const Group& group : kConstants)
-    if (isConstant(path, group)) return "; it is a constant now: leave it out";
+    if (isConstant(path, group)) return "; it is now a constant: remove it";
   return "";
 }
 

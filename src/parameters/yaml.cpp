@@ -13,7 +13,7 @@
 namespace window_ingress::parameters {
 namespace {
 
-constexpr char kSecondTime[] = ": stands here for the second time";
+constexpr char kSecondTime[] = ": is given twice";
 
 /// Walks through a file and checks its keys against the known ones.
 class YamlReader {
@@ -85,7 +85,7 @@ YAML::Node loadYaml(const std::string& file) {
     const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file);
     if (documents.size() > 1)
       throw InputError(file + ": holds " + std::to_string(documents.size()) +
-                       " documents, parted by '---'; only one is read");
+                       " documents separated by '---'; only one is allowed");
     return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::BadFile&) {
     throw InputError(file + ": cannot be read; does it exist?");
@@ -93,7 +93,7 @@ YAML::Node loadYaml(const std::string& file) {
     throw InputError(file + ": cannot be read; a folder?");
   } catch (const YAML::Exception& error) {
     throw InputError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg +
-                     (isIndentedByTabs(file) ? "; indent by blanks, yaml takes no tabs" : ""));
+                     (isIndentedByTabs(file) ? "; indent with blanks, yaml does not allow tabs" : ""));
   }
 }
 
@@ -145,7 +145,8 @@ void readValue(const std::string& file, const YAML::Node& node, const Field& fie
     std::string fault = faultOf(field);
     if (!std::is_same_v<std::decay_t<decltype(*value)>, std::string> && !isPlainForRos(node))
       fault = field.name + ": must be " + kindOf(field) +
-              "; ROS reads this otherwise: no quotes, no zero in front, 1.0e-3 for 1e-3, -0.5 for -.5";
+              "; ROS reads this differently: no quotes, no leading zeros, 1.0e-3 instead of 1e-3, -0.5 "
+              "instead of -.5";
     if (fault.empty()) return;
     *value = before;
     throw faultAt(file, node, fault);

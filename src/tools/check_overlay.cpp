@@ -36,34 +36,33 @@ struct Options {
 tools::OptionList describe(Options& o) {
   tools::OptionList add(
       "Usage: check_overlay [FILE.yaml] [OPTION...]\n"
-      "Checks a parameter file before it is given as config:= to launch files or as --params to tools: each "
-      "key\n"
-      "must exist, each value must be in its range. Prints the file's name if so, else all that is wrong. "
-      "The "
-      "options\n"
-      "are arguments of launch files, which call this before they start anything; 'none' means not given.\n"
+      "Checks a parameter file for config:= of launch files and --params of tools: each key must\n"
+      "exist, each value must be in range. Prints the file's name if it is valid, otherwise all errors.\n"
+      "Launch files call this before they start anything; the options are their arguments. 'none' means\n"
+      "not given.\n"
       "Exit code: 0 the file can be used, 2 it cannot.");
   add("file", o.file, "the same as FILE.yaml");
   add("reference", o.reference, "image of the target");
   add("reference-corners", o.corners, "x1,y1,...,x4,y4 in it [px]");
   add("window-size", o.window_size, "W,H of the opening [m]");
   add("needs-window-size", o.needs_window_size,
-      "true: refused if nobody says it, warn: warned; warned of a vehicle whose size is not said, too, or of "
-      "a missing reference");
-  add("image-transport", o.image_transport, "by which images come");
+      "true: a missing size of the opening is an error; warn: a warning; both warn if the vehicle's size or "
+      "the reference is missing");
+  add("image-transport", o.image_transport, "how images are transported, e.g. raw");
   add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
   add("flown-by", o.flown_by, "parameter file whose sizes are compared with the simulated world's");
-  add("record", o.record, "bag file to be written; refused if it is there");
-  add("bag", o.bag, "that is to be played; several with blanks between");
+  add("record", o.record, "bag file to write; must not exist yet");
+  add("bag", o.bag, "bag file to play; several separated by blanks");
   add("plays", o.plays,
-      "NAME=TOPIC with blanks between: arguments of replay.launch, refused if the bag has others");
-  add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
+      "NAME=TOPIC, separated by blanks: arguments of replay.launch; an error if the bag has other topics "
+      "instead");
+  add("needs-package", o.needs_package, "from which the calling roslaunch starts a node");
   add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
-  add("defaults", o.defaults, "yaml file that lies below FILE.yaml");
-  add("fly", o.fly, "true: refused if the vehicle does not fit through the opening");
+  add("defaults", o.defaults, "yaml file whose values FILE.yaml overrides");
+  add("fly", o.fly, "true: a vehicle that does not fit through the opening is an error");
   add("launch-folder", o.launch_folder,
-      "of the package: the arguments that the calling roslaunch was given are checked against its file "
+      "the package's folder of launch files: arguments of the calling roslaunch are checked against its file "
       "there");
   add("camera-pose", o.camera_pose, "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   add.unnamed.add("file", 1);
@@ -97,8 +96,8 @@ double checkReference(const Options& o, const std::string& file,
       throw InputError(from + "reference corners without their image: give reference:= as well");
     if (asksForSizes(o))
       tools::warn(
-          "no reference image (reference:=, or window_detector/reference in the file): other windows and "
-          "decoys are taken for the target");
+          "no reference image (reference:=, or window_detector/reference in the file): the detector may lock "
+          "onto another window or a decoy");
     return 0.0;
   }
   if (!std::filesystem::path(reference.picture).is_absolute())
@@ -134,7 +133,7 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   };
   if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
       contradicts("opening_height_m", pose.opening_height_m, size[1])) {
-    tools::warn(formatted("window_size %s counts more than %s, which says %g,%g", text.c_str(), file.c_str(),
+    tools::warn(formatted("window_size %s overrides %s, which says %g,%g", text.c_str(), file.c_str(),
                           pose.opening_width_m, pose.opening_height_m));
   }
   tools::takeWindowSize("window_size", text, pose);
@@ -145,10 +144,10 @@ void checkAspect(double in_image, const estimation::PoseParams& opening) {
   constexpr double kMaxRatio = 1.25;
   const double said = opening.opening_width_m / opening.opening_height_m;
   if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
-  tools::warn(formatted(
-      "the opening, %g x %g m, is %.3g times as wide as it is high, in the reference image %.3g times: "
-      "measure both sides, look at the corners",
-      opening.opening_width_m, opening.opening_height_m, said, in_image));
+  tools::warn(
+      formatted("the opening, %g x %g m, is %.3g times as wide as it is high, but %.3g times in the "
+                "reference image: measure both sides and check the corners",
+                opening.opening_width_m, opening.opening_height_m, said, in_image));
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -157,7 +156,7 @@ void checkSpeeds(const configuration::Overlay& overlay) {
   if (speed >= guarded)
     tools::warn(
         formatted("setpoint_guard/max_speed_mps %g is not above ingress_navigator/navigator/limits/speed_mps "
-                  "%g: all that is faster becomes zero",
+                  "%g: the guard replaces faster setpoints by zero",
                   guarded, speed));
 }
 
@@ -207,7 +206,9 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
   faults.collect([&] { checkInstalled(o.needs_package); });
   if (o.needs_display == "true" && !tools::hasDisplay())
     faults.collect([] {
-      throw InputError("rviz has no display: export DISPLAY=:0 of a screen, or go without (rviz:=false)");
+      throw InputError(
+          "rviz has no display: export DISPLAY=:0 on a machine with a screen, or start without rviz "
+          "(rviz:=false)");
     });
 }
 
@@ -294,6 +295,6 @@ int main(int argc, char** argv) {
         return std::filesystem::path(word).filename() == "roslaunch";
       });
   if (refuses_launch)
-    std::cerr << "check_overlay: nothing is started. What follows is roslaunch's own, and says no more\n";
+    std::cerr << "check_overlay: nothing is started. The message below is roslaunch's own and adds nothing\n";
   return code;
 }

@@ -89,7 +89,7 @@ int runTool(const char* name, const Body& body) {
   try {
     return body();
   } catch (const boost::program_options::too_many_positional_options_error&) {
-    return fail("a value stands where none is expected: give it behind its option; see --help", 2);
+    return fail("unexpected value: give it after its option; see --help", 2);
   } catch (const boost::program_options::error& error) {
     return fail(std::string(error.what()) + "; see --help", 2);
   } catch (const std::invalid_argument& error) {
@@ -163,7 +163,7 @@ inline void checkReplacesNoInput(const boost::program_options::variables_map& gi
     if (const auto* several = boost::any_cast<std::vector<std::string>>(&option.value())) files = *several;
     for (const std::string& file : files)
       if (std::error_code none; name != "output" && std::filesystem::equivalent(file, output, none))
-        throw InputError("--output " + output + " is read, too: give another name");
+        throw InputError("--output " + output + " is also an input: give another name");
   }
 }
 

@@ -152,8 +152,8 @@ inline std::string whyNotFile(const std::string& doc, const std::string& file) {
 inline void checkAgrees(const std::string& argument, const std::string& given, const std::string& file,
                         const std::string& key, const std::string& in_file) {
   if (given.empty() || given == in_file) return;
-  throw InputError(file + ": " + key + " is '" + in_file + "', " + argument + " of the launch file '" +
-                   given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
+  throw InputError(file + ": " + key + " is '" + in_file + "', but the launch argument " + argument +
+                   " is '" + given + "': give " + argument + ":=" + in_file + ", or remove it from the file");
 }
 
 /// \throws InputError that names each missing or unsuitable file (file:/// values, and arguments whose doc

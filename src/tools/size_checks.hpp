@@ -31,10 +31,10 @@ inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& o
   const bool is_found_out = pose.scale_sigma > 0.0;  // measured in flight
   if (is_found_out || by_argument || saysOpening(overlay)) return;
   const std::string said =
-      "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
-      "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it";
+      "the opening's size is missing: measure it and give window_size:=W,H [m], or in the file of config:= "
+      "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
   if (is_refused) throw InputError(said);
-  warn(said + formatted("; taken for %g x %g m", pose.opening_width_m, pose.opening_height_m));
+  warn(said + formatted("; assuming %g x %g m", pose.opening_width_m, pose.opening_height_m));
 }
 
 // A side that is not given keeps the default window's value.
@@ -43,9 +43,9 @@ inline void checkBothSides(const configuration::Overlay& overlay) {
   const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
   if (width == height) return;
   const auto& pose = overlay.homography_pose.pose;
-  warn(formatted(
-      "of the opening only one side is said: homography_pose/pose/%s is missing, and taken for %g m",
-      width ? "opening_height_m" : "opening_width_m", width ? pose.opening_height_m : pose.opening_width_m));
+  warn(formatted("only one side of the opening is given: homography_pose/pose/%s is missing, assuming %g m",
+                 width ? "opening_height_m" : "opening_width_m",
+                 width ? pose.opening_height_m : pose.opening_width_m));
 }
 
 // A drone must not fly with the default vehicle's size either.
@@ -53,8 +53,8 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
   if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
   const auto& vehicle = overlay.vehicle;
   warn(
-      formatted("the vehicle's size is not said: it is taken for one of %g x %g x %g m; "
-                "measure it, propellers included, and say in the file of config:= vehicle: "
+      formatted("the vehicle's size is missing: assuming %g x %g x %g m; measure it, propellers included, "
+                "and give in the file of config:= vehicle: "
                 "{half_length_m: L, half_width_m: W, half_height_m: H}",
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
 }
@@ -80,8 +80,8 @@ inline std::string otherSizes(const configuration::Overlay& overlay, const simul
                                                    opening.width_m, opening.height_m);
   return text.empty() ? ""
                       : "the file says " + text +
-                            ": it is flown by the file and judged by the world; "
-                            "give a scenario with your sizes (window, vehicle)";
+                            ": the navigator uses the file's sizes, the referee the world's; give a scenario "
+                            "with your sizes (window, vehicle)";
 }
 
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.
@@ -91,8 +91,8 @@ inline std::string understood(const configuration::Overlay& overlay) {
   const std::string body =
       formatted("a vehicle of %g x %g x %g m (length, width, height)", 2.0 * vehicle.half_length_m,
                 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m);
-  if (pose.scale_sigma > 0.0) return body + " through an opening whose size is found out in flight";
-  return body + formatted(" through %g x %g m: %.2f m beside it, %.2f m above and below",
+  if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
+  return body + formatted(" through %g x %g m: %.2f m free on each side, %.2f m above and below",
                           pose.opening_width_m, pose.opening_height_m,
                           0.5 * pose.opening_width_m - vehicle.half_width_m,
                           0.5 * pose.opening_height_m - vehicle.half_height_m);

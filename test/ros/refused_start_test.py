@@ -64,8 +64,8 @@ class RefusedStartTest(unittest.TestCase):
             rospy.delete_param("/vehicle/half_width_m")
 
     def test_a_word_that_is_none_of_those_there_are_is_refused(self):
-        self.assert_refused("homography_pose", "gravity_source", "mag", "is none of imu, odom, tf")
-        self.assert_refused("ingress_navigator", "setpoint_frame", "map", "is none of odom, base_link")
+        self.assert_refused("homography_pose", "gravity_source", "mag", "is not one of imu, odom, tf")
+        self.assert_refused("ingress_navigator", "setpoint_frame", "map", "is not one of odom, base_link")
 
     def test_lockstep_is_refused_without_simulated_time(self):
         for node in ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"):
@@ -95,7 +95,7 @@ class RefusedStartTest(unittest.TestCase):
         self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
         self.assert_refused("homography_pose", "tracker/fit", {"vehicle_width_m": 0.9}, "half_width_m")
         self.assert_refused("homography_pose", "filter/gate_squares", 30.0, "it is now 'nis_gate'")
-        self.assert_refused("world", "clock_rate_hz", 50.0, "it is a constant now")
+        self.assert_refused("world", "clock_rate_hz", 50.0, "it is now a constant")
         self.assert_refused("setpoint_guard", "max_sped_mps", 0.9, "did you mean 'max_speed_mps'?")
 
     def assert_stops(self, node, number, frame="odom"):

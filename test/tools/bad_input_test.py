@@ -85,7 +85,7 @@ def test_an_option_mistyped_is_answered_with_the_nearest():
 
 
 def test_a_value_without_its_option_is_wrong_usage():
-    assert_refused(run("fly", NOMINAL), 2, "give it behind its option")
+    assert_refused(run("fly", NOMINAL), 2, "give it after its option")
 
 
 def test_missing_image_is_named(tmp_path):

@@ -149,13 +149,13 @@ def test_an_argument_that_cannot_be_ends_the_launch_before_anything_starts(name,
 @pytest.mark.parametrize("name", ["px4", "ardupilot", "mavros"])
 def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name):
     done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []))
-    assert done.returncode == 1 and "the opening's size is not said: window_size:=W,H" in done.stderr, done.stderr
+    assert done.returncode == 1 and "the opening's size is missing: measure it and give window_size:=W,H" in done.stderr, done.stderr
 
 
 def test_what_flies_without_saying_sizes_is_told_by_which_it_flies(tmp_path):
     """ingress.launch is for other autopilots, too, and for simulators; those of the package say their sizes."""
     said = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch").stderr
-    for warning in ("the opening's size is not said: ", "taken for 1.2 x 1 m", "the vehicle's size is not said: ", "no reference image"):
+    for warning in ("the opening's size is missing: ", "assuming 1.2 x 1 m", "the vehicle's size is missing: ", "no reference image"):
         assert warning in said, said
     for quiet in (["ingress", "fly:=false"], ["sim"], ["rehearse"], ["replay", *NEEDED["replay"]], ["replay", *NEEDED["replay"], "navigator:=true"]):
         done = run("roslaunch", "--nodes", ROOT / f"launch/{quiet[0]}.launch", *quiet[1:])
@@ -166,7 +166,7 @@ def test_a_simulated_flight_says_where_the_file_has_other_sizes_than_the_world(t
     config = tmp_path / "drone.yaml"
     config.write_text("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.0}}\n")
     done = run("roslaunch", "--nodes", ROOT / "launch/sim.launch", f"config:={config}")
-    assert done.returncode == 0 and "the file says an opening of 1.3 x 1 m, the world has 1.2 x 1 m: it is flown by the file" in done.stderr
+    assert done.returncode == 0 and "the file says an opening of 1.3 x 1 m, the world has 1.2 x 1 m: the navigator uses the file's sizes" in done.stderr
     config.write_text("homography_pose: {pose: {opening_width_m: 1.2, opening_height_m: 1.0}}\n")
     assert "the world has" not in run("roslaunch", "--nodes", ROOT / "launch/sim.launch", f"config:={config}").stderr
 
@@ -180,7 +180,7 @@ def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said
     config = tmp_path / "drone.yaml"
     config.write_text(text)
     done = run("check_overlay", config, "--needs-window-size", "true")
-    assert done.returncode == (0 if is_said else 2) and ("the opening's size is not said" in done.stderr) != is_said, done.stderr
+    assert done.returncode == (0 if is_said else 2) and ("the opening's size is missing" in done.stderr) != is_said, done.stderr
     for arguments in (("--needs-window-size", "true", "--window-size", "1.3,1.1"), ("--needs-window-size", "false")):
         assert run("check_overlay", config, *arguments).returncode == 0
 
@@ -191,7 +191,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
     launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
     done = run("roslaunch", "--nodes", *launch)
     width = 2 * vehicle.get("half_width_m", 0.25)
-    assert done.returncode == 0 and f"the vehicle's size is not said: it is taken for one of 0.5 x {width:g} x " in done.stderr
+    assert done.returncode == 0 and f"the vehicle's size is missing: assuming 0.5 x {width:g} x " in done.stderr
     done = run("roslaunch", "--nodes", *launch, "fly:=false")
     assert done.returncode == 0 and "warning: no reference image" in done.stderr
 
@@ -302,7 +302,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path):
     config.write_text("vehicle:\n  half_widht_m: 0.3\n  half_height_m: -1\nhomography_pose: {gravity_source: mag}\n")
     said = refusal(ROOT / "launch/px4.launch", f"config:={config}", "refrence:=none", "fly:=maybe", "camera_pose:=[1,2]")
     for fault in (f"{config}:2: vehicle/half_widht_m: unknown key; did you mean 'half_width_m'?",
-                  f"{config}:3: vehicle/half_height_m = -1 is not within", f"{config}:4: homography_pose/gravity_source = mag is none of",
+                  f"{config}:3: vehicle/half_height_m = -1 is not within", f"{config}:4: homography_pose/gravity_source = mag is not one of",
                   "px4.launch has no argument 'refrence'", "px4.launch: fly:=maybe: give one of true, false",
                   "camera_pose: '1,2' is not 6 numbers"):
         assert f"check_overlay: {fault}" in said
@@ -332,7 +332,7 @@ def test_what_others_go_by_too_is_not_said_differently_by_the_file(tmp_path, nam
     config.write_text(key)
     wanted = key.rpartition(" ")[2].strip("}")
     said = refusal(ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), f"config:={config}")
-    assert f"/{argument} is '{wanted}', {argument} of the launch file '{standard}': give {argument}:={wanted}, or take it out" in said
+    assert f"/{argument} is '{wanted}', but the launch argument {argument} is '{standard}': give {argument}:={wanted}, or remove it" in said
     config.write_text(key.replace(wanted, standard))
     assert dump(name, *(["window_size:=1.2,1.0"] if name == "px4" else []), f"config:={config}")
 
@@ -435,21 +435,21 @@ def test_contradictions_are_said(tmp_path):
                       "ingress_navigator: {navigator: {limits: {speed_mps: 0.6}}}\nsetpoint_guard: {max_speed_mps: 0.5}\n")
     done = run("check_overlay", config, "--window-size", "1.2,1.4")
     assert done.returncode == 0
-    assert f"window_size 1.2,1.4 counts more than {config}, which says 1.6,1.4" in done.stderr
+    assert f"window_size 1.2,1.4 overrides {config}, which says 1.6,1.4" in done.stderr
     assert "max_speed_mps 0.5 is not above ingress_navigator/navigator/limits/speed_mps 0.6" in done.stderr
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n")
     said = run("check_overlay", config, "--window-size", "1.6,1.4").stderr
-    assert said.count("warning: ") == 1 and "the vehicle's size is not said: it is taken for " in said
+    assert said.count("warning: ") == 1 and "the vehicle's size is missing: assuming " in said
     config.write_text(config.read_text() + "vehicle: {half_length_m: 0.2, half_width_m: 0.2, half_height_m: 0.1}\n")
     assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == (
-        "check_overlay: a vehicle of 0.4 x 0.4 x 0.2 m (length, width, height) through 1.6 x 1.4 m: 0.60 m beside it, 0.60 m above and below\n")
+        "check_overlay: a vehicle of 0.4 x 0.4 x 0.2 m (length, width, height) through 1.6 x 1.4 m: 0.60 m free on each side, 0.60 m above and below\n")
 
 
 @pytest.mark.parametrize("side, other", [("width", "height"), ("height", "width")])
 def test_a_side_of_the_opening_that_is_not_said_is_named(tmp_path, side, other):
     (tmp_path / "drone.yaml").write_text(f"homography_pose: {{pose: {{opening_{side}_m: 1.3}}}}")
     done = run("check_overlay", tmp_path / "drone.yaml")
-    assert done.returncode == 0 and f"homography_pose/pose/opening_{other}_m is missing, and taken for 1" in done.stderr, done.stderr
+    assert done.returncode == 0 and f"homography_pose/pose/opening_{other}_m is missing, assuming 1" in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("size, is_said", [("1.4,2.0", True), ("2.0,0.8", True), ("2.0,1.4", False), ("1.8,1.4", False)])
@@ -457,7 +457,7 @@ def test_a_size_that_is_not_that_of_the_reference_image_is_said(tmp_path, size, 
     arguments = "--reference", photograph(tmp_path / "window.png"), "--reference-corners", "60,50,260,50,260,190,60,190"
     done = run("check_overlay", "--window-size", size, *arguments)
     assert done.returncode == 0
-    assert ("in the reference image 1.43 times: measure both sides" in done.stderr) == is_said
+    assert ("but 1.43 times in the reference image: measure both sides" in done.stderr) == is_said
     assert is_said or "warning" not in done.stderr
 
 

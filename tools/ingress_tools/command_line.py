@@ -20,7 +20,7 @@ class Parser(argparse.ArgumentParser):
             for file in value if isinstance(value, list) else [value]:
                 if (name != "output" and isinstance(file, (str, os.PathLike)) and output and os.path.isfile(output)
                         and os.path.isfile(file) and os.path.samefile(file, output)):
-                    self.error(f"--output {output} is read, too: give another name")
+                    self.error(f"--output {output} is also an input: give another name")
         return arguments
 
 

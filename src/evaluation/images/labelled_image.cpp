@@ -55,7 +55,7 @@ class Annotations {
   }
   double number(const std::string& name) const {
     const double value = rows_.number(column_.at(name));
-    if (!std::isfinite(value)) rows_.fail("'" + cell(name) + "' is no number");
+    if (!std::isfinite(value)) rows_.fail("'" + cell(name) + "' is not a number");
     return value;
   }
   geometry::Quadrilateral corners() const {

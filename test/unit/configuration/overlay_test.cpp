@@ -70,8 +70,8 @@ TEST_F(OverlayFile, NamesAllKeysThatAreCalledSo) {
 TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {
   EXPECT_EQ(error("ingress_navigator: {navigator: {vehicle: {half_width_m: 0.3}}}\n"),
             file_ +
-                ":1: ingress_navigator/navigator/vehicle: unknown key; it is now 'vehicle: {..}', beside the "
-                "nodes: said once for all of them");
+                ":1: ingress_navigator/navigator/vehicle: unknown key; it is now 'vehicle: {..}', at the "
+                "level of the node names, once for all nodes");
   EXPECT_TRUE(
       test::says(error("homography_pose: {tracker: {fit: {vehicle_width_m: 0.6}}}\n"), "half_width_m"));
 }
@@ -83,9 +83,9 @@ TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
       {"ingress_navigator: {odom_frame: map}", "; it is now 'vehicle: {odom_frame: ..}'"},
       {"homography_pose: {filter: {gate_squares: 30}}", "gate_squares: unknown key; it is now 'nis_gate'"},
       {"homography_pose: {tracker: {frames: {certain_sigmas: 3}}}",
-       "frames: unknown key; it is a constant now"},
-      {"window_detector: {interior: {least_slope: 3}}", "least_slope: unknown key; it is a constant now"},
-      {"world: {clock_rate_hz: 50}", "clock_rate_hz: unknown key; it is a constant now: leave it out"}};
+       "frames: unknown key; it is now a constant"},
+      {"window_detector: {interior: {least_slope: 3}}", "least_slope: unknown key; it is now a constant"},
+      {"world: {clock_rate_hz: 50}", "clock_rate_hz: unknown key; it is now a constant: remove it"}};
   for (const auto& [yaml, text] : formers)
     EXPECT_TRUE(test::says(error(yaml + std::string("\n")), text)) << error(yaml + std::string("\n"));
   Overlay overlay;

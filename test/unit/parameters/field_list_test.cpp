@@ -52,7 +52,7 @@ TEST(FieldList, KeepsWithinTheRange) {
 TEST(FieldList, RefusesWhatItDoesNotKnowByName) {
   EXPECT_EQ(errorOf("edges/flor=1"), "edges/flor: unknown name; did you mean 'floor'?");
   EXPECT_TRUE(test::says(errorOf("edges/floor"), "NAME=VALUE"));
-  EXPECT_EQ(errorOf("edges/floor=much"), "edges/floor: 'much' is no number");
+  EXPECT_EQ(errorOf("edges/floor=much"), "edges/floor: 'much' is not a number");
   EXPECT_TRUE(test::says(errorOf("edges/floor="), "no number"));
   EXPECT_TRUE(test::says(errorOf("edges/floor=nan"), "no number"));
   EXPECT_TRUE(test::says(errorOf("edges/floor=1e9"), "is not within"));

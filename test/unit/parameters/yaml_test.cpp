@@ -80,12 +80,11 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("inner: {count: 1,30}\n"),
             file_ + ":1: inner/30: is a number without a key: a comma in place of a decimal point?");
   EXPECT_TRUE(test::says(error("speed_mps: .nan\n"), "not within"));
-  EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
-  EXPECT_EQ(error("inner: {count: 1}\ninner/count: 2\n"),
-            file_ + ":2: inner/count: stands here for the second time");
+  EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: is given twice");
+  EXPECT_EQ(error("inner: {count: 1}\ninner/count: 2\n"), file_ + ":2: inner/count: is given twice");
   EXPECT_TRUE(test::says(error("a: [1, 2\n"), "not valid yaml"));
   EXPECT_FALSE(test::says(error("a: [1, 2\n"), "tabs"));
-  EXPECT_TRUE(test::says(error("a:\n\tb: {c: 1}\n"), "yaml takes no tabs"));
+  EXPECT_TRUE(test::says(error("a:\n\tb: {c: 1}\n"), "yaml does not allow tabs"));
   EXPECT_TRUE(test::says(error("fast: true\n---\nfast: false\n"), "holds 2 documents"));
   EXPECT_TRUE(test::says(error("- 1\n"), "must be a mapping"));
 }
@@ -109,7 +108,7 @@ TEST_F(YamlFile, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
                 file_ + ":2: inner/cuont: unknown key; did you mean 'count'?\n" +  //
                 file_ + ":3: fast: must be true or false, not '7'\n" +             //
                 file_ + ":4: corners: must be a list of numbers, not '1'\n" +      //
-                file_ + ":5: fast: stands here for the second time\n" +            //
+                file_ + ":5: fast: is given twice\n" +                             //
                 file_ + ":6: a key must be a word");
 }
 

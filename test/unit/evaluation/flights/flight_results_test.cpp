@@ -103,7 +103,7 @@ TEST_F(FlightResults, NamesFileAndLineOfWhatIsWrong) {
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
   EXPECT_TRUE(test::says(error({good}), "flights.csv:2: 'LANDED' is no outcome"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
-  EXPECT_TRUE(test::says(error({good}), "'soon' is no number"));
+  EXPECT_TRUE(test::says(error({good}), "'soon' is not a number"));
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
   EXPECT_TRUE(test::says(error({good}), "flights.csv:1: is not 'seed,outcome"));
 }
