@@ -13,7 +13,7 @@ std::string otherWindowText(double factor) {
 }
 
 std::string contradictedText(const Consistency& consistency) {
-  return formatted("%d of %d images contradict the window that was made out: of another size than told?",
+  return formatted("%d of %d images contradict the estimated window: is the configured size wrong?",
                    consistency.refused, consistency.refused + consistency.images);
 }
 

@@ -99,7 +99,7 @@ PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
   const double range = T.translation().norm();
   const double tilt = std::acos(std::clamp(T.linear().col(2).dot(up_camera), -1.0, 1.0));
   if (!geometry::isValidPose(T) || !std::isfinite(estimate.yaw_sigma_rad + estimate.yaw_rad))
-    return rejected(PoseReject::kNotFinite, "the fit has no finite pose or spread");
+    return rejected(PoseReject::kNotFinite, "the fitted pose or its uncertainty is not finite");
   if (T.linear().col(0).dot(T.translation()) <= 0.0)
     return rejected(PoseReject::kNotInFront, "the window would be seen from behind");
   if (estimate.best.reprojection_rms_px > params.max_reprojection_rms_px)
@@ -167,7 +167,7 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   const Eigen::Vector3d up =
       hints.gravity ? hints.gravity->up_camera.normalized() : Eigen::Vector3d(0, -1, 0);
   if (!isUpright(window, up))
-    return rejected(PoseReject::kBadCorners, "a partial view rolled by 45 degrees or more");
+    return rejected(PoseReject::kBadCorners, "partial view, rolled by 45 degrees or more");
   const auto ordered = upright(window, up);
   const auto image = ImageMeasurement::make(ordered, camera, noiseOf(params_));
   if (!image) return rejected(PoseReject::kBadCorners, "corners cannot be undistorted");

@@ -134,10 +134,9 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
   const KnownWindow* target = this->target();
   if (!params_.enabled || !window.whole()) return "";
   if (choice_is_lost_ && window.target_id != target_track_id_)
-    return "the window that was chosen is lost, for the odometry jumped: choose again (~select_window)";
+    return "the chosen window is lost because odometry jumped: choose again (~select_window)";
   if (choice_is_given_up_)
-    return "the window that was chosen was given up: choose another one (~select_window), or allow "
-           "search/next_window";
+    return "the chosen window was given up: choose another one (~select_window), or allow search/next_window";
   if (target == nullptr) return "";
   const Wall wall{target->place.position_m, target->place.heading_rad, kWallSigmaM, 0.0};
   const auto place =
@@ -160,7 +159,7 @@ std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& f
 Answer FacadeMemory::select(std::uint32_t id) {
   if (id == 0) {
     setTarget(0, false);
-    return {true, "no window is chosen: the one that is followed becomes the target"};
+    return {true, "no window is chosen: the tracked window becomes the target"};
   }
   const KnownWindow* window = map_.find(id);
   if (window == nullptr || !map_.isConfirmed(*window)) return {false, "no " + name(id) + " is known"};

@@ -123,7 +123,7 @@ std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInpu
                          input.gust_vertical_mps);
   if (!(criterion.settled_lateral_m < criterion.clearance_lateral_m) ||
       !(criterion.settled_vertical_m < criterion.clearance_vertical_m))
-    return formatted("carried off the axis, at the plane by %.2f m to the side and %.2f m up or down",
+    return formatted("carried off the axis: %.2f m to the side and %.2f m up or down at the plane",
                      criterion.settled_lateral_m, criterion.settled_vertical_m);
   if (std::abs(relative.heading_error_rad) > kMaxHeadingErrorRad) {
     return formatted("heading %.2f rad off the normal", relative.heading_error_rad);

@@ -245,11 +245,11 @@ Reply Navigator::reset() {
 Reply Navigator::confirmOpening() {
   auto& self = *impl_;
   if (!self.isFlownAt() || !self.memory.trusted)
-    return {false, std::string("no window is flown at: ") + toString(self.state)};
+    return {false, std::string("no window is being approached: ") + toString(self.state)};
   if (!self.memory.opening_asked && !self.memory.opening_confirmed)
-    return {false, "not asked yet: the vehicle asks where it waits at the line"};
+    return {false, "not asked yet: the vehicle asks while it waits at the commit line"};
   self.memory.opening_confirmed = true;
-  return {true, "confirmed: the window flown at is open, without glass"};
+  return {true, "confirmed: the window is open and has no glass"};
 }
 
 State Navigator::state() const { return impl_->state; }

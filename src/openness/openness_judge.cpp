@@ -160,14 +160,13 @@ void OpennessJudge::conclude() {
   const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
-    verdict.reason = formatted("what is within the border moves with it: %.2f +- %.2f m behind it",
+    verdict.reason = formatted("the surface within the border moves with it: %.2f +- %.2f m behind it",
                                verdict.depth_behind_m, verdict.depth_sigma_m);
   } else if (says_.is_moving && (most_moves || !sure_open)) {
-    verdict.reason = formatted("%d of %d points do not move as anything that stands still", says_.unsteady,
+    verdict.reason = formatted("%d of %d points do not move like a static scene", says_.unsteady,
                                says_.unsteady + says_.points);
   } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {
-    verdict.reason =
-        formatted("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
+    verdict.reason = formatted("deeper than a room: %.1f m; a mirror looks the same", verdict.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
     verdict.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
   } else if (all.moving > 0 && !sure_open) {
@@ -184,7 +183,7 @@ void OpennessJudge::conclude() {
         formatted("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {
     verdict.openness = Openness::kOpen;
-    verdict.reason = formatted("what is within the border lies %.1f +- %.1f m behind it",
+    verdict.reason = formatted("the scene within the border lies %.1f +- %.1f m behind it",
                                verdict.depth_behind_m, verdict.depth_sigma_m);
   }
   verdict_ = verdict;

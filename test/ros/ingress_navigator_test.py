@@ -130,7 +130,7 @@ class IngressNavigatorTest(unittest.TestCase):
     def test_a_confirmation_without_a_window_is_refused_with_a_reason(self):
         reply = self.call("confirm_opening")
         self.assertFalse(reply.success)
-        self.assertIn("no window is flown at", reply.message)
+        self.assertIn("no window is being approached", reply.message)
 
     def test_stream_is_fast_and_truthful_about_its_frame(self):
         self.start()

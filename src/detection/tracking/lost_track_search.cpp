@@ -46,7 +46,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
     if (auto other = amongOthers(input, *found)) found = other, is_same = true;
   }
   if (remembers && !is_same && memory.settled()) {
-    refuse(RejectReason::kOutscored, "another window is in view; the one that was followed is waited for");
+    refuse(RejectReason::kOutscored, "another window is in view; waiting for the tracked one");
     return std::nullopt;
   }
   if (found->has_appearance && !appearance_gate.allows(found->bhattacharyya, input.stamp_sec)) {

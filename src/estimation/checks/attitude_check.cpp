@@ -23,7 +23,7 @@ bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Mat
   if (in_a_row_ == kEnough) verdict_ = {FramesVerdict::kGood, ""};
   if (in_a_row_ > -kEnough) return agree;
   verdict_ = {FramesVerdict::kWrong,
-              formatted("attitude of the imu is %.0f deg off that of the odometry: other axes?",
+              formatted("attitudes of imu and odometry differ by %.0f deg: different axes?",
                         apart_rad * geometry::kDegreesPerRad)};
   return false;
 }

@@ -19,7 +19,7 @@ class AttitudeCheck {
 
  private:
   int in_a_row_ = 0;  ///< successive agreements if positive, else contradictions
-  FramesVerdict verdict_{FramesVerdict::kOpen, "attitude: only one of imu and odometry so far"};
+  FramesVerdict verdict_{FramesVerdict::kOpen, "attitude: only one of imu and odometry received so far"};
 };
 
 }  // namespace window_ingress::estimation

@@ -11,7 +11,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr char kNothingYet[] = "camera mounting: no way flown yet";
+constexpr char kNothingYet[] = "camera mounting: not flown far enough yet";
 constexpr double kLastingSec = 10000.0;                    // a mounting does not change
 constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
@@ -253,7 +253,7 @@ std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
   const Eigen::Vector2d sigma = found.log_covariance.diagonal().cwiseSqrt();
   const double least = (grown.cwiseAbs() - kCertainSigmas * sigma).maxCoeff();
   if (!(least > kMaxSizeError)) return "";
-  return formatted("opening looks like %.2f x %.2f m, said to be %.2f x %.2f m", found.size.width_m,
+  return formatted("opening looks like %.2f x %.2f m, configured as %.2f x %.2f m", found.size.width_m,
                    found.size.height_m, said_.size.width_m, said_.size.height_m);
 }
 

@@ -31,7 +31,7 @@ constexpr double kMinEvidence = 10.0;        // for another meaning [nats]
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
     "twist looks like world frame, not body frame",
-    "twist looks turned to body frame twice",
+    "twist looks rotated into the body frame twice",
     "twist looks like x and y exchanged",
     "twist looks like y and z of opposite sign (forward-right-down)",
     "twist looks like the opposite sign"};
@@ -162,11 +162,11 @@ void TwistCheck::judge() {
     accused_ = better;
   } else if (is_biased || (pieces_.size() >= kMinPieces && mean_squares > kMaxMeanSquares)) {
     verdict_ = {FramesVerdict::kWrong,
-                formatted("twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",
+                formatted("twist does not fit the path flown: off by %.0f %% and by a constant %.2f m/s",
                           100.0 * all.misfit(), all.bias_mps)};
     accused_ = 0;
   } else if (verdict_.state == FramesVerdict::kWrong && is_refuted) {
-    verdict_ = {FramesVerdict::kOpen, "velocity: what spoke against its axes is refuted"};
+    verdict_ = {FramesVerdict::kOpen, "velocity: the fault in its axes was not confirmed"};
   }
 }
 

@@ -80,7 +80,7 @@ std::string faultOfCorners(const WindowObservation& window, const geometry::Pinh
   if (shortest < kMinSidePx) return formatted("side of %.2f px < %.2f px", shortest, kMinSidePx);
   for (const double angle : geometry::interiorAngles(window.corners))
     if (angle < kMinCornerAngleRad || angle > M_PI - kMinCornerAngleRad)
-      return formatted("corner of %.3f rad is nearer than %.3f rad to flat", angle, kMinCornerAngleRad);
+      return formatted("corner of %.3f rad is within %.3f rad of 0 or pi", angle, kMinCornerAngleRad);
   const int visible = window.visibleSides();
   if (visible > 0 && visible < 4) return formatted("only %d of 4 borders are seen", visible);
   return "";

@@ -41,7 +41,7 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   memory.opening_asked = looks_ && is_to_be_asked;
   const bool only_that = criterion.unmet == whyNotEntered(target, memory, params_->commit);
   if (is_to_be_asked && !looks_ && only_that && !decision.event)
-    decision.reason = "on the window's normal, to ask at the line whether it is open";
+    decision.reason = "on the window's normal; will ask at the commit line whether it is open";
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;
     memory.committed_sec = situation.now_sec;

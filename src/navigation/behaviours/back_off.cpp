@@ -29,7 +29,7 @@ Decision BackOff::step(const Situation& situation, MissionState& memory) {
 
 Decision BackOff::withoutNormal(const MissionState& memory) const {
   const Event event = hasRetriesLeft(memory, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
-  return {{}, true, event, "no trusted normal to go back along"};
+  return {{}, true, event, "no trusted normal to back off along"};
 }
 
 std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,

@@ -19,10 +19,10 @@ constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
 
 std::string whyNoOdometryToCommitBy(const MissionState& memory) {
   if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
-    return formatted("odometry: its position and its velocity differ by %.2f m/s",
+    return formatted("odometry: position and velocity disagree by %.2f m/s",
                      memory.odometry_disagreement_mps);
   if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
-    return formatted("odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
+    return formatted("odometry: its velocity is off by %.2f m/s, not yet known to be a constant bias",
                      memory.odometry_unexplained_mps);
   return "";
 }

@@ -31,9 +31,10 @@ Decision Search::step(const Situation& situation, MissionState& memory) {
   if (turns_ >= params_->search.turns || memory.others > kMaxOthers) {
     decision.event = Event::kGiveUp;
     decision.reason = "window not found in " + std::to_string(turns_) + " turns";
-    if (memory.others > 0) decision.reason += ", but others " + std::to_string(memory.others) + " times";
+    if (memory.others > 0)
+      decision.reason += ", but other windows " + std::to_string(memory.others) + " times";
     if (!memory.left_odom_m.empty())
-      decision.reason += ", but closed or tried in vain: " + std::to_string(memory.left_odom_m.size());
+      decision.reason += "; closed or given up: " + std::to_string(memory.left_odom_m.size());
   }
   return decision;
 }

@@ -48,12 +48,12 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, 
     faults.push_back("the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
   if (!situation.vehicle) return faults;
   if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
-    faults.push_back("above limits/max_height_m");
+    faults.push_back("the vehicle is above limits/max_height_m");
   }
   if (const auto plane_m = flown_at.distanceInOpening(*situation.vehicle, params.vehicle))
     faults.push_back(
-        formatted("in the opening that was flown at before, %.2f m from its plane: take the vehicle a "
-                  "metre away from it by hand",
+        formatted("the vehicle is in the opening of the previous mission, %.2f m from its plane: take it a "
+                  "metre away by hand",
                   *plane_m));
   return faults;
 }
@@ -77,9 +77,9 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
                           const MissionState& memory) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
   const bool is_left = state == State::kHold || state == State::kBackOff;
-  if (is_left && wasLeftForGood(target, memory)) return "a window that was left for good";
+  if (is_left && wasLeftForGood(target, memory)) return "a window given up before";
   if (!memory.trusted) {
-    return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
+    return is_left && isKnownOther(target, vehicle, memory) ? "a window known not to be the target" : "";
   }
   const double shift_m =
       (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
@@ -92,7 +92,9 @@ bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params) {
 }
 
 std::string goesAstray(double turned_rad) {
-  return formatted("goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
+  return formatted(
+      "the vehicle moves %.2f rad off the commanded direction: setpoints and odometry differ in axes",
+      turned_rad);
 }
 
 }  // namespace window_ingress::navigation

@@ -34,7 +34,7 @@ std::string whyNotEntered(const TargetEstimate& target, const MissionState& memo
   const std::string closed = whyClosed(target);
   if (!closed.empty() || memory.opening_confirmed) return closed;
   const std::string doubt = doubtAbout(target, params);
-  return isToBeAsked(target, memory, params) ? "is it open? ~confirm_opening says yes; " + doubt : doubt;
+  return isToBeAsked(target, memory, params) ? "is it open? If so, call ~confirm_opening; " + doubt : doubt;
 }
 
 bool isToBeAsked(const TargetEstimate& target, const MissionState& memory, const CommitParams& params) {
@@ -51,11 +51,11 @@ std::string whatIsAssumed(const CommitParams& params) {
   const std::string glass =
       excluded ? "assumes that there is no glass (commit/glass)"
                : "will ask for ~confirm_opening at the line: glass is not excluded (commit/glass)";
-  if (params.unverified_opening == "deny") return glass + "; turns back where it is not seen to be open";
+  if (params.unverified_opening == "deny") return glass + "; turns back if it is not seen to be open";
   if (!excluded) return glass;
   return glass + (params.unverified_opening == "allow"
-                      ? "; enters where it is not seen to be open, too"
-                      : "; will ask for ~confirm_opening where it is not seen to be open");
+                      ? "; enters even if it is not seen to be open"
+                      : "; will ask for ~confirm_opening if it is not seen to be open");
 }
 
 std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& memory) {

@@ -26,14 +26,14 @@ std::string whySentElsewhere(const Situation& situation, State state, const Miss
   if (now == 0 || now == before) return "";
   const bool has_got_its_number = before == 0 && inOnePlace(*situation.target, *memory.trusted);
   if (has_got_its_number) return "";
-  return "window " + std::to_string(now) + " is the target now, no longer " +
-         (before == 0 ? "the one flown at" : "window " + std::to_string(before));
+  return "window " + std::to_string(now) + " is now the target instead of " +
+         (before == 0 ? "the window approached so far" : "window " + std::to_string(before));
 }
 
 void turnToNextWindow(State state, const NavigatorParams& params, MissionState& memory, Decision& decision) {
   const bool tried_in_vain = state == State::kBackOff && decision.event == Event::kGiveUp;
   if (!tried_in_vain || !params.search.next_window || !memory.trusted) return;
-  decision.reason += "; the next window";
+  decision.reason += "; trying the next window";
   decision.event = Event::kBackedOff;
   memory.giveUpWindow(*memory.trusted);
   memory.back_offs = 0;

@@ -66,10 +66,10 @@ std::string faultOf(const VehicleState& vehicle) {
   if (!vehicle.velocity_odom_mps.allFinite()) return "odometry: velocity is not finite";
   const double position_m = vehicle.T_odom_base.translation().stableNorm();
   if (position_m > kFarAwayM)
-    return formatted("odometry: %.3g m from its origin, at most %.3g m are believed", position_m, kFarAwayM);
+    return formatted("odometry: %.3g m from its origin, limit %.3g m", position_m, kFarAwayM);
   const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
   if (speed_mps > kFasterThanAnyMps)
-    return formatted("odometry: speed %.3g m/s, at most %.3g m/s are believed", speed_mps, kFasterThanAnyMps);
+    return formatted("odometry: speed %.3g m/s, limit %.3g m/s", speed_mps, kFasterThanAnyMps);
   return "";
 }
 
@@ -77,11 +77,11 @@ std::string faultOf(const TargetEstimate& target) {
   if (!std::isfinite(target.stamp_sec)) return "window: stamp is not finite";
   if (!geometry::isValidPose(target.T_odom_window)) return "window: pose is not finite or not a rotation";
   if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
-    return formatted("window: further away than the %.3g m that are believed", kFarAwayM);
+    return formatted("window: farther away than the limit of %.3g m", kFarAwayM);
   const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
   if (tilt_rad > kMaxTiltRad) return formatted("window: leans by %.2f rad", tilt_rad);
   if (!isPositive(target.covariance)) return "window: covariance unknown";
-  if (!hasUsableMotion(target)) return "window: moves as no window does";
+  if (!hasUsableMotion(target)) return "window: implausible motion";
   const auto& opening = target.opening;
   const bool has_size =
       opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
@@ -110,7 +110,7 @@ Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
   judgeImage(input, situation);
   situation.camera_fault = input.camera_fault;
   if (input.camera && input.camera_fault.empty()) situation.camera_fault = faultOf(*input.camera);
-  if (!input.passed_on) situation.setpoint_fault = "nobody passes the setpoints on: the guard is silent";
+  if (!input.passed_on) situation.setpoint_fault = "setpoints are not passed on: the guard is silent";
   return situation;
 }
 
@@ -155,7 +155,7 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   vehicle_ = sample;
   if (is_newer) smooth_ = odometry_.add(sample);
   if (!smooth_) {
-    situation.vehicle_fault = "odometry went elsewhere while it was gone";
+    situation.vehicle_fault = "odometry continued at another place after a gap";
     situation.vehicle_jumped = true;
     not_before_sec_ = sample.stamp_sec;
     target_.reset();
@@ -197,7 +197,7 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
                        params_.max_future_sec);
     }
     if (fault.empty() && target.stamp_sec <= not_before_sec_)
-      fault = "window: from before the odometry jumped";
+      fault = "window: measured before odometry jumped";
     if (fault.empty()) situation.target_is_new = acceptTarget(inSmooth(target), situation.now_sec);
     if (!fault.empty()) situation.target_fault = fault;
   }

@@ -268,10 +268,9 @@ TEST_F(NavigatorSteps, NoMissionStartsInTheOpeningThatTheLastOneFlewAt) {
     ASSERT_EQ(steps(navigator, there, 1).state, State::kIdle);
     const auto reply = navigator.start(inputAt(there, now_), now_);
     EXPECT_FALSE(reply.success);
-    EXPECT_EQ(
-        reply.message,
-        "not started: in the opening that was flown at before, 0.30 m from its plane: take the vehicle a "
-        "metre away from it by hand");
+    EXPECT_EQ(reply.message,
+              "not started: the vehicle is in the opening of the previous mission, 0.30 m from its plane: "
+              "take it a metre away by hand");
     walk(navigator, there, {-1.5, 0.0, 1.5});
     EXPECT_TRUE(navigator.start(inputAt({-1.5, 0.0, 1.5}, now_), now_).success);
   }

@@ -226,7 +226,7 @@ TEST(WindowTracker, WaitsForALostWindowBeforeItTakesAnotherOneUnderANewNumber) {
       first = i;
       EXPECT_EQ(window->target_id, 2u);
     } else {
-      EXPECT_NE(tracker.trace().detail.find("waited for"), std::string::npos) << tracker.trace().detail;
+      EXPECT_NE(tracker.trace().detail.find("waiting for"), std::string::npos) << tracker.trace().detail;
       EXPECT_EQ(tracker.trace().target, -1);
     }
   EXPECT_NEAR((first - 9) * kPeriodSec, TrackParams().reacquire_sec, 2 * kPeriodSec);

@@ -90,8 +90,8 @@ TEST(OpeningPolicy, SaysAtTheStartWhatItWillAskAndWhatItAssumes) {
     EXPECT_TRUE(says(said(paramsFor(policy, "excluded")), assumes)) << policy;
     EXPECT_FALSE(says(said(paramsFor(policy, "excluded")), asks)) << policy;
   }
-  EXPECT_TRUE(says(said(paramsFor("ask")), "will ask for ~confirm_opening where"));
-  EXPECT_TRUE(says(said(paramsFor("allow")), "enters where it is not seen to be open"));
+  EXPECT_TRUE(says(said(paramsFor("ask")), "will ask for ~confirm_opening if"));
+  EXPECT_TRUE(says(said(paramsFor("allow")), "enters even if it is not seen to be open"));
 }
 
 TEST(OpeningPolicy, OfOneMissionHoldsForThisMissionAlone) {
@@ -106,7 +106,7 @@ TEST(OpeningPolicy, OfOneMissionHoldsForThisMissionAlone) {
   const std::string of_parameters = said(1.0, {});
   EXPECT_EQ(
       said(2.0, {"deny", "excluded"}),
-      "started; assumes that there is no glass (commit/glass); turns back where it is not seen to be open");
+      "started; assumes that there is no glass (commit/glass); turns back if it is not seen to be open");
   EXPECT_EQ(said(3.0, {}), of_parameters);
   EXPECT_EQ(said(4.0, {"ask", "possible"}), of_parameters);
 }
@@ -230,7 +230,7 @@ TEST(OpeningPolicy, WaitsForTheOperatorAndGoesInWhenHeSaysSo) {
   params.openness = Openness::kUnknown;
   test::KinematicPlant plant(params);
   Navigator navigator(paramsFor("ask"));
-  EXPECT_FALSE(navigator.confirmOpening().success) << "no window is flown at yet";
+  EXPECT_FALSE(navigator.confirmOpening().success) << "no window is being approached yet";
   double asked_sec = 0.0;
   const Flight flight = flown(plant, navigator, [&](const NavigatorOutput& output) {
     if (output.reason.find("confirm_opening") == std::string::npos) {

@@ -36,7 +36,7 @@ TEST(WindowChoice, SaysWhyItLeavesAWindowWhenAnotherIsChosen) {
   Flying flying;
   const auto output = flying.step(inputFor(2, flying.now_sec));
   EXPECT_EQ(output.state, State::kSearch);
-  EXPECT_NE(output.reason.find("window 2 is the target now, no longer window 1"), std::string::npos);
+  EXPECT_NE(output.reason.find("window 2 is now the target instead of window 1"), std::string::npos);
 }
 
 TEST(WindowChoice, TurnsToTheWindowThatIsChosenInFlightWhereverItIs) {

@@ -116,7 +116,8 @@ TEST_F(PermittedDirections, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeS
       const CommitCriterion criterion =
           criterionWith(*situation_.target, *situation_.vehicle, memory_, params_);
       EXPECT_EQ(criterion.holds, is_known || unexplained_mps < 0.08) << unexplained_mps;
-      EXPECT_EQ(criterion.unmet.find("steadily") != std::string::npos, !criterion.holds) << criterion.unmet;
+      EXPECT_EQ(criterion.unmet.find("constant bias") != std::string::npos, !criterion.holds)
+          << criterion.unmet;
     }
   }
 }
