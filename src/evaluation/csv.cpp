@@ -54,7 +54,7 @@ CsvReader::CsvReader(const std::string& file) : name_(file), file_(file) {
 
 CsvReader::CsvReader(const std::string& file, const std::string& header) : CsvReader(file) {
   if (line_ == header) return;
-  if (file_.eof() && header.rfind(line_, 0) == 0) fail("was cut off as it was written, and holds nothing");
+  if (file_.eof() && header.rfind(line_, 0) == 0) fail("was cut off while it was written, and has no rows");
   fail("is not '" + header + "': written by another version?");
 }
 

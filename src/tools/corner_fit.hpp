@@ -51,7 +51,7 @@ inline CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std:
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto clicked = geometry::canonical(quad);
-  if (!clicked) return noFit("the corners make no convex quadrilateral");
+  if (!clicked) return noFit("the corners are not a convex quadrilateral");
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kMaxShownPx);
   double on_edge = 0.0;
   const auto borders =

@@ -127,7 +127,7 @@ void checkTable(const char* option, const std::string& file) {
 void check(const Options& o) {
   checkTable("--output", o.output);
   checkTable("--candidates", o.candidates);
-  if (o.candidates == o.output) throw InputError("--candidates " + o.candidates + ": is --output, too");
+  if (o.candidates == o.output) throw InputError("--candidates " + o.candidates + ": is also --output");
   if (o.inputs.empty()) throw InputError("no image given; see --help");
   if (!o.size.empty() && o.camera.empty())
     throw InputError("--window-size needs --camera: no pose without it");
@@ -156,7 +156,7 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
 void checkOverlays(const Options& o, const std::vector<std::string>& images) {
   for (const std::string& input : o.inputs)  // the next run would treat the overlays as photographs
     if (fs::is_directory(input) && fs::exists(o.overlay) && fs::equivalent(input, o.overlay))
-      throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
+      throw InputError("--overlay " + o.overlay + ": the input images are there: give another folder");
   std::map<fs::path, std::string> named;
   for (const std::string& file : images)
     if (const auto [other, is_new] = named.emplace(fs::path(file).filename(), file);
@@ -171,7 +171,7 @@ detection::ReferenceAppearance readReference(const std::string& file, const std:
   if (v.empty()) return detection::referenceFromImage(image, params);
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
-  if (!quad) throw InputError("--reference-corners: no convex quadrilateral");
+  if (!quad) throw InputError("--reference-corners: not a convex quadrilateral");
   if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *quad); !fault.empty())
     throw InputError("--reference-corners: " + fault);
   return detection::ReferenceAppearance(image, *quad);

@@ -107,7 +107,7 @@ Observer bagRecorder(const std::string&) { return nullptr; }
 volatile std::sig_atomic_t told_to_stop = 0;
 
 void stopAfterTheseFlights(int signal) {
-  constexpr char kSaid[] = "fly: stopping; the flights under way end first (once more: at once)\n";
+  constexpr char kSaid[] = "fly: stopping after the running flights (Ctrl-C again: at once)\n";
   told_to_stop = 1;
   std::signal(signal, SIG_DFL);
   if (write(STDERR_FILENO, kSaid, sizeof kSaid - 1) < 0) return;  // stderr is closed
@@ -140,7 +140,7 @@ void recordAgain(const FlyJob& job, const simulation::Scenario& scenario,
   const auto again = evaluation::flyOnce(scenario, flight.seed, job.params, {bag.get(), &strip});
   if (evaluation::csvRow(again) != evaluation::csvRow(flight))
     throw std::runtime_error("seed " + std::to_string(flight.seed) +
-                             ": flown again for its bag, it ended otherwise; flights must repeat");
+                             ": flown again for its bag, it ended differently; flights must be repeatable");
   evaluation::writeImage(name + ".png", strip.draw(flight, outlineOf(scenario)));
 }
 
@@ -192,7 +192,7 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
                job.seeds.size(), flights.size() == job.seeds.size() ? ", none is left to fly" : "", seed);
   const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
   if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
-    throw InputError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
+    throw InputError("--resume: seed " + std::to_string(seed) + " flown again ends differently than in " +
                      folder + "/flights.csv: another scenario, other parameters or another build");
   flights.back() = again;
   return flights;

@@ -54,18 +54,17 @@ inline OptionList describeFly(FlyOptions& o) {
   add.required("output,o", o.output, "folder for the results; made if missing");
   add("seeds", o.seeds, "A..B, a flight each");
   add("draws", o.draws,
-      "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
-      "to 1");
-  add("resume", o.resume,
-      "goes on with the flights in DIR: same scenario, parameters and build, or it is refused");
+      "csv file instead of --seeds: one flight per row, its seed and the position of each named key in its "
+      "range, 0 to 1");
+  add("resume", o.resume, "continues the flights in DIR; scenario, parameters and build must be the same");
   add("overwrite", o.overwrite, "replaces the flights in DIR");
   add("jobs", o.jobs, "flights at the same time", {1, 256});
   add("shard", o.shard, "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", o.join, "flies nothing: joins the folders of several shards into one");
   add("params", o.params, kParamsHelp);
   add("no-pictures", o.no_pictures,
-      "draws none: the window is seen as by a detector that never errs. Many times faster; measures what "
-      "comes behind the detector, not the whole");
+      "draws no images: simulates a perfect detector. Many times faster; tests what follows the detector "
+      "only");
   add("keep-failures", o.keep_failures,
       "for each flight that did not pass, a bag and a picture in DIR/failures");
   add("timing", o.timing, "where the time went, as a table, at the end");

@@ -74,7 +74,7 @@ class CornerClicks {
   // A second Enter saves anyway.
   bool isDoubtful() {
     const tools::CornerFit beside = tools::besideEdges(image_, flat(points_));
-    const std::string asked = beside.said + ". Enter saves all the same";
+    const std::string asked = beside.said + ". Enter saves anyway";
     if (!beside.corners.empty() || said_ == asked) return false;
     said_ = asked;
     return true;
@@ -190,13 +190,13 @@ int run(const Job& job) {
     if (!tools::hasDisplay())
       throw InputError("there is no display to click in: give --corners x1,y1,...,x4,y4");
     const auto clicked = CornerClicks(image).run();
-    if (!clicked) throw std::runtime_error("given up, nothing written");
+    if (!clicked) throw std::runtime_error("cancelled, nothing written");
     corners = *clicked;
   }
   if (job.fit) {
     const auto fit = tools::fitted(image, corners);
     if (fit.corners.empty())
-      throw std::runtime_error("not fitted: " + fit.said + "; mend the corners, or leave out --fit");
+      throw std::runtime_error("not fitted: " + fit.said + "; correct the corners, or leave out --fit");
     std::cout << "moved by the fit: " << fit.said << "\n";
     corners = fit.corners;
   }
@@ -211,7 +211,7 @@ int run(const Job& job) {
   std::cout << "written: " << files.image.string() << "\nlook at: " << files.understood.string()
             << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
             << "roslaunch window_ingress px4.launch window_size:=W,H config:=" << files.overlay
-            << ", likewise ardupilot.launch and ingress.launch; W,H: inner size of the opening [m]\n";
+            << "; ardupilot.launch and ingress.launch take the same; W,H: inner size of the opening [m]\n";
   return 0;
 }
 

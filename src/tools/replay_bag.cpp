@@ -81,10 +81,10 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   } else if ((params.reference = adapters::recordedReference(bag, params))) {
     say("the reference image is the bag's own");
   } else {
-    say("no reference image, neither in the bag nor by --reference: windows are told by geometry alone");
+    say("no reference image in the bag or from --reference: windows are recognised by geometry only");
   }
   params.with_pose = !o.size.empty() || params.said.count("homography_pose/pose/opening_width_m") > 0;
-  if (!params.with_pose) say("nobody says the opening's size (--window-size W,H): corners, but no poses");
+  if (!params.with_pose) say("the opening's size is missing (--window-size W,H): corners, but no poses");
   if (!o.size.empty()) tools::takeWindowSize("--window-size", o.size, params.homography_pose.pose);
   return params;
 }

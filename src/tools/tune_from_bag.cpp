@@ -38,8 +38,8 @@ tools::OptionList describe(Job& job) {
       "Usage: tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
       "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H "
       "[OPTION...]\n"
-      "Tries settings of the detector on a part of the images and writes the keys it changed, if it is "
-      "better on the rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
+      "Tries detector settings on some of the images. Writes the changed keys if they are also better on the "
+      "held-out rest.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
       "usage or unreadable input.");
   add.required("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
   add("overwrite", job.overwrite, tools::kOverwriteHelp);
@@ -56,7 +56,7 @@ tools::OptionList describe(Job& job) {
   add("params", job.params, tools::kParamsHelp);
   add("names", job.names, "parameters that may be changed, with commas between, like edges/floor");
   add("trials", job.trials, "settings to try", {1, 1e6});
-  add("held-out", job.held_out, "part of the groups that judges only", {0.01, 0.99});
+  add("held-out", job.held_out, "share of the groups that is used for judging only", {0.01, 0.99});
   add("seed", job.seed, "of the parts and of the search");
   return add;
 }
@@ -72,7 +72,7 @@ void check(const Job& job) {
   if (job.labels.empty() == job.bags.empty()) throw InputError("give either --labels or --bag; see --help");
   if (job.labels.empty() != job.images.empty()) throw InputError("--labels and --images go together");
   if (!job.bags.empty() && (job.topics.truth.empty() || job.size.empty()))
-    throw InputError("--bag needs --truth and --window-size: without them nobody knows what is right");
+    throw InputError("--bag needs --truth and --window-size: they are the ground truth");
   if (!job.corners.empty() && job.reference.picture.empty())
     throw InputError("--reference-corners needs --reference");
   if (!job.overwrite) tools::checkReplacesNothing({job.output});

@@ -173,7 +173,7 @@ class BlockedOutputTest(unittest.TestCase):
 
     def test_a_terminal_that_is_stopped(self):
         self.fly(Terminal(), MANY_LINES)
-        support.Diagnostics().wait("ingress_navigator: console", "takes nothing more")
+        support.Diagnostics().wait("ingress_navigator: console", "is blocked")
         self.assert_streams()
         self.assert_abort_acts()
 

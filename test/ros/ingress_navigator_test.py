@@ -102,7 +102,7 @@ class IngressNavigatorTest(unittest.TestCase):
         support.Diagnostics().wait("ingress_navigator: camera", missing)
         self.streams["window_pose"].make = support.changed(support.no_window, camera__known=True, camera__forward=0.3, camera__horizontal_fov=1.1,
                                                            camera__vertical_fov=0.9, camera__pixel_angle=0.002)
-        support.Diagnostics().wait("ingress_navigator: camera", "0.30 m ahead, sees 1.10 x 0.90 rad", "as camera_info and tf say")
+        support.Diagnostics().wait("ingress_navigator: camera", "0.30 m ahead, field of view 1.10 x 0.90 rad", "from camera_info and tf")
         support.wait_for(lambda: self.call("start").success, "a start with a calibration")
 
     def test_start_twice_is_answered_twice(self):

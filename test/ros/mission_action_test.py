@@ -198,7 +198,7 @@ class MissionActionTest(unittest.TestCase):
 
     def test_another_size_than_the_pose_nodes_is_refused(self):
         reason = self.refusal(window_width=1.6, window_height=1.4)
-        self.assertIn("the goal's window is 1.60 x 1.40 m, the pose node flies by 1.20 x 1.00 m", reason)
+        self.assertIn("the goal's window is 1.60 x 1.40 m, the pose node uses 1.20 x 1.00 m", reason)
         self.assertIn("1.20 x 1.60", self.refusal(window_width=1.2, window_height=1.6))
         self.assertIn("nan", self.refusal(window_width=float("nan")))
 
@@ -219,7 +219,7 @@ class MissionActionTest(unittest.TestCase):
 
     def test_a_choice_that_is_not_taken_is_refused(self):
         self.plant.obeys_choice = False
-        self.assertIn("the pose node has not taken the window for the target", self.refusal(window_id=2))
+        self.assertIn("the pose node has not accepted the window as target", self.refusal(window_id=2))
 
     def test_a_choice_that_waits_can_be_cancelled(self):
         self.plant.obeys_choice = False

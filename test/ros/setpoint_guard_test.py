@@ -56,7 +56,7 @@ class SetpointGuardTest(unittest.TestCase):
         other = subprocess.Popen(["rostopic", "pub", "-r", "10", "cmd_vel_in", "geometry_msgs/TwistStamped", "{}"],
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "several (2 publishers)", "only one must steer")
+            support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "several (2 publishers)", "only one may steer")
         finally:
             other.terminate()
             other.wait(timeout=support.DEADLINE_S)

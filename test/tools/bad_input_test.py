@@ -280,7 +280,7 @@ def test_a_reference_without_corners_is_said_to_be_guessed(tmp_path, image):
 
 def test_overlays_are_not_drawn_among_the_photographs(tmp_path, image):
     done = run("detect_images", "--output", tmp_path / "found.csv", "--overlay", image.parent, image.parent)
-    assert_refused(done, 2, "--overlay", "the photographs lie there")
+    assert_refused(done, 2, "--overlay", "the input images are there")
     assert not (tmp_path / "plain.png.png").exists()
 
 
@@ -302,7 +302,7 @@ def test_a_table_replaces_nothing_but_a_table(tmp_path, image):
         assert_refused(done, 2, option, "end its name with .csv")
     assert drone.read_text().startswith("vehicle")
     table = tmp_path / "found.csv"
-    assert_refused(run("detect_images", "--output", table, "--candidates", table, image), 2, "is --output, too")
+    assert_refused(run("detect_images", "--output", table, "--candidates", table, image), 2, "is also --output")
 
 
 def test_a_good_parameter_file_is_named_on_a_line(tmp_path):

@@ -76,7 +76,7 @@ def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
     assert f" of {total} flights, " in process.stderr.readline()
     process.send_signal(signal.SIGINT)
     spoken = process.communicate(timeout=60)[1]
-    assert "fly: stopping; the flights under way end first (once more: at once)\n" in spoken
+    assert "fly: stopping after the running flights (Ctrl-C again: at once)\n" in spoken
     last = spoken.splitlines()[-1]
     said = re.fullmatch(rf"fly: (\d+) of {total} flown and summed up, continue with --resume", last)
     assert process.returncode == 1 and said, last
@@ -107,7 +107,7 @@ def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
     assert fly(scenario, tmp_path / "whole", "--join", out).returncode == 2
     (out / "flown_with.txt").unlink()  # as another build
     other = fly(scenario, out, "--seeds", "1..5", "--resume")
-    assert other.returncode == 2 and "seed 3 flown again ends otherwise" in other.stderr
+    assert other.returncode == 2 and "seed 3 flown again ends differently" in other.stderr
     assert {name: (out / name).read_bytes() for name in FILES} == before
 
 

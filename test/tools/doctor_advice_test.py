@@ -84,7 +84,7 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default=None: required if name.endswith("engagement/required") else default)
     system = seen(said={} if publishers else {"ingress_navigator: engaged": 2})
     for status in system.said.values():
-        status.message = "nothing on /engaged yet, and engagement/required: no mission can start"
+        status.message = "nothing on /engaged yet, but engagement/required is set: no mission can start"
     system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
     system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
     system.graph.publishers["/engaged"] = publishers
@@ -125,7 +125,7 @@ def test_a_world_without_the_odometry_that_it_draws_by_is_no_cause(doctor, capsy
     ("the autopilot does not follow setpoints: armed, mode OFFBOARD, in a failsafe", "read in the ground station")])
 def test_an_autopilot_that_does_not_follow_is_one_finding_with_its_reason(doctor, capsys, why, mend):
     system = seen(said={"engaged_from_mavros: autopilot": 2, "ingress_navigator: engaged": 2})
-    for status, text in zip(system.said.values(), (why, "/engaged has fallen silent: taken to be out of control")):
+    for status, text in zip(system.said.values(), (why, "/engaged has fallen silent: assumed to be out of control")):
         status.message = text
     system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
     system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
@@ -315,7 +315,7 @@ def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys)
 
 def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_found(doctor, capsys):
     said_by(doctor, ingress_navigator__mission=(1, "ABORTED: window not found in 3 turns"), homography_pose__target=(
-        2, "a window is seen in 186 images, and used in none: it is 1.20 times as wide as it is high, the opening, said to be 1.00 x 1.20 m, 0.83 times"))
+        2, "a window is seen in 186 images, but used in none: it is 1.20 times as wide as it is high, but the configured opening of 1.00 x 1.20 m 0.83 times"))
     lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
     assert lines[0].startswith("ERROR  homography_pose: target: a window is seen in 186 images") and lines[1].startswith("       mend: measure the opening's")
     assert lines[2] == "       follows: ingress_navigator: mission: ABORTED: window not found in 3 turns" and lines[3].startswith("1 finding(s) to mend")

@@ -30,7 +30,7 @@ def test_an_earlier_replay_is_replaced_only_when_asked(tmp_path):
     bag = bag_of(tmp_path, "seconds=1")
     without_size = run("replay_bag", "--bag", bag, "--output", tmp_path)
     assert without_size.returncode == 0, "a folder with other files is none"
-    assert "nobody says the opening's size (--window-size W,H): corners, but no poses" in without_size.stderr
+    assert "the opening's size is missing (--window-size W,H): corners, but no poses" in without_size.stderr
     before = (tmp_path / "frames.csv").read_bytes()
     (tmp_path / "frames.csv").write_text("kept")
     refused = run("replay_bag", "--bag", bag, "--output", tmp_path)

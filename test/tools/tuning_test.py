@@ -333,7 +333,7 @@ def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
     image[top + 20:bottom - 20, left - 12:left + 12] = (60, 50, 45)  # somebody stands before it
     cv2.imwrite(str(tmp_path / "hidden.png"), image)
     code, _, errors = answer("make_reference", tmp_path / "hidden.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
-    assert code == 1 and "% of one side lie on a straight edge" in errors and "mend the corners" in errors, errors
+    assert code == 1 and "% of one side lie on a straight edge" in errors and "correct the corners" in errors, errors
 
 
 @pytest.mark.parametrize("off, times", [(0, 1), (15, 2)], ids=["good corners", "poor corners are saved by the second Enter only"])
@@ -369,7 +369,7 @@ def test_a_large_image_and_the_keys_beside_it_are_on_the_screen_of_a_laptop(labe
 
 @pytest.mark.parametrize("arguments, words", [
     ([], "no image given"), (["/nowhere.png"], "/nowhere.png"), (["IMAGE"], "no display"),
-    (["IMAGE", "--corners", "1,2,3"], "--corners"), (["IMAGE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
+    (["IMAGE", "--corners", "1,2,3"], "--corners"), (["IMAGE", "--corners", "1,1,5,5,5,1,1,5"], "not a convex quadrilateral"),
     (["IMAGE", "--corners", "10,10,900,10,900,90,10,90"], "corners")])
 def test_make_reference_says_what_is_wrong(labelled, arguments, words):
     code, _, errors = answer("make_reference", *[labelled / "a.png" if a == "IMAGE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")

@@ -74,7 +74,7 @@ class BagCheck {
     for (std::uint64_t place = kMagicSize; place < size_;) place = checkRecord(place);
     const bool is_empty = index_place_ == size_;  // an empty bag
     if (!is_empty && records_.count(index_place_) == 0)
-      throw Damage{"the index does not begin where it is said to"};
+      throw Damage{"the index does not begin where the bag header says"};
     if (summaries_ != promised_chunks_ || connections_ != promised_connections_)
       throw Damage{"its index is cut off"};
     for (const std::uint64_t place : named_chunks_)
@@ -140,7 +140,7 @@ class BagCheck {
         ++summaries_;
         named_chunks_.insert(record.fields.number<std::uint64_t>("chunk_pos"));
         if (std::uint64_t{record.fields.number<std::uint32_t>("count")} * 8 != record.data_size)
-          throw Damage{"a chunk's summary is not as long as it says"};
+          throw Damage{"a chunk's summary has the wrong length"};
         break;
       case kConnection:
         ++connections_;
@@ -150,7 +150,7 @@ class BagCheck {
       case kBagHeader:
         break;
       default:
-        throw Damage{"a record is of no known kind"};
+        throw Damage{"a record is of an unknown kind"};
     }
     return record.data + record.data_size;
   }
@@ -161,9 +161,9 @@ class BagCheck {
     if (chunk_size_ > kLargestChunk) throw Damage{"a chunk is too large"};
     is_plain_ = compression == "none";
     if (!is_plain_ && compression != "bz2" && compression != "lz4")
-      throw Damage{"a chunk is compressed in no known way"};
+      throw Damage{"a chunk's compression is unknown"};
     if (!is_plain_) return;
-    if (chunk_size_ != record.data_size) throw Damage{"a chunk is not as large as it says"};
+    if (chunk_size_ != record.data_size) throw Damage{"a chunk has the wrong size"};
     messages_.clear();
     for (std::uint64_t place = 0; place < chunk_size_;) place = checkWithinChunk(record, place);
   }
@@ -177,7 +177,7 @@ class BagCheck {
       inner.fields.number<std::uint32_t>("conn"), inner.fields.number<std::uint64_t>("time");
     if (op == kConnection)
       inner.fields.number<std::uint32_t>("conn"), Fields(read(inner.data, inner.data_size));
-    if (op != kMessage && op != kConnection) throw Damage{"what lies in a chunk is no message"};
+    if (op != kMessage && op != kConnection) throw Damage{"a chunk contains something other than messages"};
     if (op == kMessage) messages_.insert(place);
     return end;
   }
@@ -187,7 +187,7 @@ class BagCheck {
     constexpr std::uint64_t kEntry = 12;
     if (chunks_.empty()) throw Damage{"an index comes before any chunk"};
     if (std::uint64_t{record.fields.number<std::uint32_t>("count")} * kEntry != record.data_size)
-      throw Damage{"an index is not as long as it says"};
+      throw Damage{"an index has the wrong length"};
     const std::vector<char> entries = read(record.data, record.data_size);
     for (std::uint64_t entry = 0; entry < entries.size(); entry += kEntry) {
       const std::uint64_t place = *numberAt<std::uint32_t>(entries, entry + 8);

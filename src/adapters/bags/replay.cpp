@@ -245,9 +245,9 @@ ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
   } catch (const ros::Exception& error) {  // from rosbag and from deserialisation
     throw InputError(bag.getFileName() + ": damaged: " + error.what());
   } catch (const std::bad_alloc&) {  // from lengths in a damaged message
-    throw InputError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
+    throw InputError(bag.getFileName() + ": damaged: a message needs more memory than there is");
   } catch (const std::length_error&) {
-    throw InputError(bag.getFileName() + ": damaged: a message is longer than any can be");
+    throw InputError(bag.getFileName() + ": damaged: a message is longer than possible");
   }
   return run.finish();
 }

@@ -37,7 +37,7 @@ std::string badNumbers(const sensor_msgs::CameraInfo& m) {
   if (!finite(m.K) || !finite(m.P) || !finite(m.R) || !finite(m.D))
     return "K, D, R or P holds a number that is not finite";
   if (zero(m.R) && !zero(m.P))
-    return "R is zero and so no rotation, though P is not: the identity belongs there where nothing is "
+    return "R is zero, which is not a rotation, although P is set; set R to the identity if nothing is "
            "rectified";
   if (zero(m.K)) return "uncalibrated: K is zero; calibrate the camera or load its calibration in the driver";
   return "";

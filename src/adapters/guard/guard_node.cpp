@@ -64,7 +64,7 @@ Health GuardNode::inputHealth() const {
   if (gate_.isLate(now_sec)) return {Health::kWarn, input + "is silent " + publishers + ", sending zero"};
   if (!gate_.fault().empty()) return {Health::kError, input + "is refused, sending zero: " + gate_.fault()};
   if (subscriber_.getNumPublishers() > 1)
-    return {Health::kWarn, input + "comes from several " + publishers + ", only one must steer"};
+    return {Health::kWarn, input + "comes from several " + publishers + ", only one may steer"};
   return {};
 }
 

@@ -178,7 +178,7 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
   if (!response.success) return true;
   const detection::ReferenceAppearance reference(last_image_.image, perception_.window()->corners);
   use(reference, "live image");
-  response.message = "the window in the last image is the reference now";
+  response.message = "the window in the last image is now the reference";
   if (params_.reference.capture_file.empty()) return true;
   try {
     const std::string file = unusedReferenceFile(params_.reference.capture_file);
@@ -186,7 +186,7 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
     response.message += "; written to " + file;
   } catch (const InputError& error) {
     response.success = false;
-    response.message += std::string(", but it is not kept: ") + error.what();
+    response.message += std::string(", but it is not saved: ") + error.what();
   }
   return true;
 }
@@ -207,12 +207,12 @@ Health DetectorNode::detectionHealth() const {
 }
 
 Health DetectorNode::referenceHealth() const {
-  if (reference_from_.empty()) return {Health::kOk, "none: windows are told by their geometry alone"};
+  if (reference_from_.empty()) return {Health::kOk, "none: windows are recognised by geometry only"};
   std::string text = "from " + reference_from_;
   if (perception_.window())
     text += perception_.window()->has_appearance
                 ? formatted("; distance %.3f", perception_.window()->bhattacharyya)
-                : "; not compared in the last image: geometry alone";
+                : "; not compared in the last image, geometry only";
   return {reference_is_guess_ ? Health::kWarn : Health::kOk, text};
 }
 

@@ -36,7 +36,8 @@ ImageCompressorNode::ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& p
     : params_(readParameters<ImageCompressorParams>(pnh)), diagnostics_(nh, pnh) {
   const std::string topic = nh.resolveName("compressed");
   if (isPublished(topic)) {
-    ROS_WARN("%s is published already: nothing to do here (record.launch compress:=false)", topic.c_str());
+    ROS_WARN("%s is already published: this node is not needed (record.launch compress:=false)",
+             topic.c_str());
     return;
   }
   publisher_ = nh.advertise<sensor_msgs::CompressedImage>("compressed", 5);

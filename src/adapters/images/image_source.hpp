@@ -29,7 +29,7 @@ inline std::string whyNoTransport(const std::string& transport) {
     known += ", " + plugin.substr(plugin.find('/') + 1, plugin.rfind("_sub") - plugin.find('/') - 1);
   }
   return "image_transport is '" + transport + "', available are: " + known +
-         "; of others install the plugin (Noetic: " + "ros-noetic-" + transport +
+         "; for others install the plugin (Noetic: " + "ros-noetic-" + transport +
          "-image-transport; Debian: build it in your workspace)";
 }
 

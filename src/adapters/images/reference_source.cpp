@@ -31,7 +31,7 @@ detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::ve
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
-  if (!canonical) throw InputError("reference/corners are no convex quadrilateral in cyclic order");
+  if (!canonical) throw InputError("reference/corners are not a convex quadrilateral in cyclic order");
   if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *canonical); !fault.empty())
     throw InputError("reference/corners: " + fault);
   return {image, *canonical};
@@ -86,7 +86,7 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   if (!writeImage(files.image.string(), reference.image()) ||
       !writeImage(files.understood.string(), detection::drawReference(reference)))
     throw InputError("reference: cannot write '" + files.image.string() +
-                     "' as JPEG or PNG, or what is beside it");
+                     "' as JPEG or PNG, or its _understood image");
   std::ofstream output(files.overlay);
   output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(files.image.string())
          << "\n    corners: [";

@@ -92,7 +92,7 @@ bool AttitudeSource::isConnected(const std::string& camera_frame) const {
 
 Health AttitudeSource::health() const {
   if (missing_.empty()) return {Health::kOk, "known at the last image"};
-  return {Health::kOk, "not known at the last image, tracks go by the image alone: " + missing_};
+  return {Health::kOk, "not known at the last image; tracking uses the image alone: " + missing_};
 }
 
 }  // namespace window_ingress::adapters

@@ -98,7 +98,8 @@ class CameraSource {
     const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
     if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
     return "images on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
-           subscriber_.getTopic() + " is undone once more; if they are, set vehicle/image_is_rectified";
+           subscriber_.getTopic() +
+           " is removed again; if they are rectified, set vehicle/image_is_rectified";
   }
 
   bool rectified_;

@@ -32,7 +32,7 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
            (ros::Time::isSimTime() ? kSlowPlayer : "");
   if (clock_.jumpedBack(now_sec)) last_sec_.reset();
   if (last_sec_ && *sec <= *last_sec_)
-    return formatted("stamp %.3f is not after the one before, %.3f", *sec, *last_sec_);
+    return formatted("stamp %.3f is not after the previous one, %.3f", *sec, *last_sec_);
   last_sec_ = sec;
   return std::nullopt;
 }

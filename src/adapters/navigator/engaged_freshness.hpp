@@ -36,9 +36,11 @@ class EngagedFreshness {
     if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
       return {Health::kOk, "waiting for " + topic};
     if (!heard_ && params_.required)
-      return {Health::kError, "nothing on " + topic + " yet, and engagement/required: no mission can start"};
-    if (!heard_) return {Health::kOk, "nothing on " + topic + ": taken to follow setpoints"};
-    if (isSilent(now_sec)) return {Health::kError, topic + " has fallen silent: taken to be out of control"};
+      return {Health::kError,
+              "nothing on " + topic + " yet, but engagement/required is set: no mission can start"};
+    if (!heard_) return {Health::kOk, "nothing on " + topic + ": assumed to follow setpoints"};
+    if (isSilent(now_sec))
+      return {Health::kError, topic + " has fallen silent: assumed to be out of control"};
     return {Health::kOk, engaged_ ? "follows setpoints"
                                   : "not armed, not in a mode that follows setpoints, or in a failsafe"};
   }

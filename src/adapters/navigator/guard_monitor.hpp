@@ -55,14 +55,14 @@ class GuardMonitor {
   Health health() const {
     const std::string topic = subscriber_.getTopic();
     if (passesOn() && std::isinf(heard_sec_))
-      return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
+      return {Health::kOk, "nothing on " + topic + ": setpoints are assumed to be passed on"};
     if (passesOn()) return {};
     if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
       return {Health::kOk, "no setpoints are sent: nothing to pass on"};
     if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= EngagedFreshness::kGraceSec)
       return {Health::kOk, "waiting for " + topic};
     return {Health::kError,
-            "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};
+            "nothing on " + topic + " from setpoint_guard: no mission can fly; zeros bypass the guard"};
   }
 
   ros::NodeHandle nh_;

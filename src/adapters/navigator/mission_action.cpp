@@ -30,7 +30,7 @@ std::string whyOtherSize(const window_ingress::IngressGoal& goal, const window_i
       !isOther(goal.window_height, known.height, known.height_sigma))
     return "";
   if (known.width == 0.0) return "the window's size cannot be compared: nothing on window_pose so far";
-  return formatted("the goal's window is %.2f x %.2f m, the pose node flies by %.2f x %.2f m (window_size:=)",
+  return formatted("the goal's window is %.2f x %.2f m, the pose node uses %.2f x %.2f m (window_size:=)",
                    goal.window_width, goal.window_height, known.width, known.height);
 }
 
@@ -72,8 +72,8 @@ void MissionAction::receiveGoal(Server::GoalHandle goal) {
 std::string MissionAction::whyRefused(const Goal& goal) const {
   if (phase_ != Phase::kNone) return "another goal is under way: cancel it first";
   if (const std::string flying = mission_.flying(); !flying.empty()) return flying;
-  if (goal.unverified_opening >= kOpenings.size()) return "unverified_opening is none of 0 to 3";
-  if (goal.glass >= kGlass.size()) return "glass is none of 0 to 2";
+  if (goal.unverified_opening >= kOpenings.size()) return "unverified_opening must be 0 to 3";
+  if (goal.glass >= kGlass.size()) return "glass must be 0 to 2";
   if (const std::string why = whyOtherSize(goal, window_size_); !why.empty()) return why;
   return goal.window_id == 0 ? "" : whyUnknown(goal.window_id);
 }
@@ -132,7 +132,7 @@ void MissionAction::hear(const window_ingress::IngressState& state) {
   if (phase_ == Phase::kNone) return;
   if (phase_ == Phase::kChoosing) {
     if (steadyNowSec() - chosen_since_sec_ > kChoiceSec)
-      refuse(goal_, "the pose node has not taken the window for the target");
+      refuse(goal_, "the pose node has not accepted the window as target");
     return;
   }
   if (state.state == State::PASSED) return finish(Result::PASSED, state.reason);

@@ -49,12 +49,12 @@ Health NavigatorNode::missionHealth() const {
 
 Health NavigatorNode::vehicleHealth() const {
   const navigation::MeasuredVehicle& vehicle = last_.report.vehicle;
-  std::string said = formatted("answers in %.2f s, as %s", vehicle.response_sec,
+  std::string said = formatted("response time %.2f s, %s", vehicle.response_sec,
                                vehicle.is_measured ? "measured in flight" : "assumed");
   if (std::isfinite(vehicle.acceleration_mps2))
-    said += formatted("; changes its velocity by no more than %.1f m/s^2", vehicle.acceleration_mps2);
+    said += formatted("; acceleration up to %.1f m/s^2", vehicle.acceleration_mps2);
   if (const double bias_mps = vehicle.velocity_bias_base_mps.norm(); bias_mps > 0.0)
-    said += formatted("; odometry's velocity is off by %.2f m/s, which is taken off", bias_mps);
+    said += formatted("; velocity bias of odometry %.2f m/s, subtracted", bias_mps);
   return {Health::kOk, said};
 }
 
@@ -62,14 +62,14 @@ Health NavigatorNode::cameraHealth() const {
   if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
   const navigation::VehicleParams& vehicle = params_.navigator.vehicle;
   return {Health::kOk,
-          formatted("%.2f m ahead, sees %.2f x %.2f rad, %.2g rad a pixel: as %s", vehicle.camera_forward_m,
-                    vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad, vehicle.pixel_rad,
-                    input_.camera ? "camera_info and tf say" : "the parameters vehicle/... say")};
+          formatted("%.2f m ahead, field of view %.2f x %.2f rad, %.2g rad per pixel, from %s",
+                    vehicle.camera_forward_m, vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad,
+                    vehicle.pixel_rad, input_.camera ? "camera_info and tf" : "the parameters vehicle/...")};
 }
 
 Health NavigatorNode::lastGateHealth() const {
   if (last_gate_.fault().empty()) return {};
-  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + last_gate_.fault()};
+  return {Health::kError, "an invalid setpoint is replaced by zero: " + last_gate_.fault()};
 }
 
 }  // namespace window_ingress::adapters

@@ -31,7 +31,7 @@ NavigatorNodeParams readChecked(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
   auto params = readParameters<NavigatorNodeParams>(nh, pnh, vehicle);
   params.navigator.vehicle = vehicle;
   if (params.start_at_once && !params.lockstep)
-    throw InputError("start_at_once is for lockstep only: call ~start");
+    throw InputError("start_at_once works in lockstep only; call ~start instead");
   return params;
 }
 
@@ -158,7 +158,7 @@ void NavigatorNode::step() {
     navigator_.sentZero();
   }
   if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany)
-    navigator_.abort("aborted: its steps fail, see callbacks in the diagnostics");
+    navigator_.abort("aborted: the navigator's steps fail; see 'callbacks' in /diagnostics");
   publish(last_, now);
   if (last_.enabled) guard_.brakeIfNobodyDoes(now, frames().odom);
 }

@@ -23,7 +23,7 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
   if (!lockstep_) forgetSilentInputs();
   if (!lockstep_ && clockStandsStill(now_sec)) return {false, "the clock stands still: nothing on /clock"};
   if (params_.start_at_once && last_.state == State::kIdle)
-    return {false, "starts by itself in the first step in which it may"};
+    return {false, "start_at_once: the mission starts by itself as soon as it can"};
   navigation::Reply reply = navigator_.start(input_, now_sec, policy);
   if (reply.success) return reply;
   for (const Health& health : {odom_health_.health(), pose_health_.health(),

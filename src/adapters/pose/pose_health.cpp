@@ -11,7 +11,8 @@ namespace window_ingress::adapters {
 Health framesHealth(const estimation::FramesVerdict& frames) {
   if (frames.state == estimation::FramesVerdict::kWrong)
     return {Health::kError, frames.what + "; no approach"};
-  if (frames.state == estimation::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
+  if (frames.state == estimation::FramesVerdict::kOpen)
+    return {Health::kOk, "not verified yet: " + frames.what};
   return {Health::kOk, "camera mounting and velocity frame verified"};
 }
 
@@ -19,11 +20,11 @@ Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry) {
   std::string ahead;
   if (odometry.aheadSec() > 0.0)
-    ahead = formatted("; odometry is stamped %.2f s ahead of its arrival, which is taken off",
+    ahead = formatted("; odometry is stamped %.2f s ahead of its arrival, which is corrected",
                       odometry.aheadSec());
-  if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
+  if (!offset) return {Health::kOk, "known after the first turn in front of a window" + ahead};
   const std::string text =
-      formatted("images are stamped %.2f +- %.2f s %s beside odometry", std::abs(offset->late_sec),
+      formatted("images are stamped %.2f +- %.2f s %s relative to odometry", std::abs(offset->late_sec),
                 offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
   if (!offset->isTooLarge()) return {Health::kOk, text + ahead};
   return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
@@ -39,11 +40,11 @@ Health opennessHealth(const openness::OpennessVerdict& verdict) {
 
 Health consistencyHealth(const estimation::Consistency& consistency) {
   const std::string text =
-      formatted("normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
+      formatted("normalised innovation squared %.2f per degree of freedom over %d of %d images, limit %.1f",
                 consistency.mean_nis, consistency.images, estimation::ConsistencyMonitor::kImages,
                 estimation::ConsistencyMonitor::kMaxMeanNis);
   if (consistency.contradicted)
-    return {Health::kWarn, text + "; most images contradict the window that was made out"};
+    return {Health::kWarn, text + "; most images contradict the estimated window"};
   return {consistency.consistent ? Health::kOk : Health::kWarn, text};
 }
 
@@ -57,12 +58,12 @@ Health targetHealth(const UnusedImages& unused, const geometry::OpeningSize& wan
   constexpr int kMany = 20;
   constexpr double kSigmas = 4.0, kLeastMisfit = 0.02;
   if (unused.count < kMany) return {};
-  const std::string seen = formatted("a window is seen in %d images, and used in none: ", unused.count);
+  const std::string seen = formatted("a window is seen in %d images, but used in none: ", unused.count);
   const double said = wanted.width_m / wanted.height_m, misfit = std::abs(unused.aspect / said - 1.0);
   if (unused.aspect == 0.0 || misfit < std::max(kLeastMisfit, kSigmas * unused.aspect_sigma / said))
     return {Health::kError, seen + unused.why};
-  return {Health::kError, seen + formatted("it is %.2f times as wide as it is high, the opening, said to be "
-                                           "%.2f x %.2f m, %.2f times",
+  return {Health::kError, seen + formatted("it is %.2f times as wide as it is high, but the configured "
+                                           "opening of %.2f x %.2f m %.2f times",
                                            unused.aspect, wanted.width_m, wanted.height_m, said)};
 }
 

@@ -23,8 +23,8 @@ constexpr double kClockGraceSec = 15.0;  // for /clock itself: a bag begins afte
 Health consoleHealth() {
   if (!consoleIsStuck()) return {};
   return {Health::kWarn,
-          "the terminal or log of this node takes nothing more (Ctrl-S? disk full?): its lines are lost "
-          "there, not in /rosout"};
+          "the terminal or log of this node is blocked (Ctrl-S? disk full?): lines are lost there, but not "
+          "in /rosout"};
 }
 
 constexpr double kQuietSec = 5.0;   // pause between two warnings about one topic
@@ -76,7 +76,7 @@ void Diagnostics::addOutput(const std::string& name, const std::vector<ros::Publ
   add(name, [this, outputs] {
     int listeners = 0;
     for (const ros::Publisher& output : outputs) listeners += static_cast<int>(output.getNumSubscribers());
-    const std::string others = outputs.size() > 1 ? " nor to what else comes of it" : "";
+    const std::string others = outputs.size() > 1 ? " or the topics derived from it" : "";
     return outputHealth(listeners, outputs.front().getTopic() + others, runningSec());
   });
 }

@@ -137,7 +137,7 @@ bool catchAll(Diagnostics& diagnostics, const std::string& name, Work&& work) {
   } catch (const std::exception& error) {
     diagnostics.caught(name, error.what());
   } catch (...) {
-    diagnostics.caught(name, "something that is no std::exception");
+    diagnostics.caught(name, "an exception of unknown type");
   }
   return false;
 }

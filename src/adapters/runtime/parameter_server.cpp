@@ -111,7 +111,7 @@ std::vector<std::string> readFields(const ros::NodeHandle& nh, const std::vector
   if (!nh.getParam(nh.getNamespace(), tree)) return {};
   if (tree.getType() != XmlRpcValue::TypeStruct)
     throw InputError(nh.getNamespace() + " is " + kindOf(tree) +
-                     ", must be a mapping of names to values: these parameters stand below it");
+                     ", must be a mapping of names to values: the node's parameters are below it");
   return readTree(nh.getNamespace(), tree, fields, others);
 }
 

@@ -41,7 +41,7 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
   const bool follows = followed_sec_ >= 0.0;
   const bool leaps = follows && (passed_sec <= 0.0 || passed_sec > kMaxSilenceSec);
-  if (leaps) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
+  if (leaps) ROS_WARN("vehicle_odom: stamps jumped by %.2f s: the world restarts", passed_sec);
   if (leaps || !running_) return begin(vehicle);
   if (!follows) epoch_sec_ = vehicle.stamp_sec;
   followed_sec_ = vehicle.stamp_sec;
@@ -63,7 +63,7 @@ void WorldNode::deliverNewestImages() {
 Health WorldNode::externalHealth() const {
   if (!running_) return {Health::kOk, "no vehicle_odom so far"};
   if (images_lost_ * 10 <= images_due_ || images_lost_ <= kForgivenImages)
-    return {Health::kOk, "time is that of vehicle_odom"};
+    return {Health::kOk, "time follows vehicle_odom"};
   return {Health::kWarn,
           formatted("%ld of %ld images are lost: this machine draws too slowly", images_lost_, images_due_)};
 }

@@ -16,13 +16,13 @@ namespace window_ingress::adapters {
 /// \throws InputError if the scenario uses a feature that lockstep does not support
 inline void refuseInLockstep(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile == "external")
-    throw InputError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+    throw InputError("lockstep: an external vehicle keeps its own time; set lockstep to false");
   if (scenario.target_chosen)
-    throw InputError("lockstep: nobody points at the target there (target_chosen); set lockstep to false");
+    throw InputError("lockstep: nothing selects the target (target_chosen); set lockstep to false");
   for (const auto& fault : scenario.faults)
     if (fault.unit == "clock" || fault.unit == "tf")
-      throw InputError("lockstep: nobody looks at " + fault.unit +
-                       " there, its fault would do nothing; set lockstep to false");
+      throw InputError("lockstep: nothing uses " + fault.unit +
+                       ", so its fault has no effect; set lockstep to false");
 }
 
 /// The world's side of lockstep: publishes its steps and knows when the vehicle has answered.

@@ -260,7 +260,7 @@ bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
   fault.duration_sec = request.duration_sec;
   const bool unheard = lockstep_ && (fault.unit == "clock" || fault.unit == "tf");
   try {
-    if (unheard) throw InputError("fault: in lockstep nobody looks at " + fault.unit);
+    if (unheard) throw InputError("fault: in lockstep nothing uses " + fault.unit);
     world_->inject(fault);
     response.success = true;
     response.message =
@@ -275,11 +275,11 @@ bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
 Health WorldNode::speedHealth() const {
   if (isExternal()) return externalHealth();
   if (!ros::Time::isSimTime())
-    return {Health::kError, "use_sim_time is not set: nodes will take the stamps for old"};
+    return {Health::kError, "use_sim_time is not set: nodes will refuse the stamps as too old"};
   if (!running_) return {Health::kWarn, "waiting for subscribers of image_raw and odom"};
   const double part = lost_sec_ / std::max(1e-3, lost_sec_ + world_->timeSec());
   if (part > 0.1)
-    return {Health::kWarn, formatted("slower than asked: %.0f %% of the time lost", 100.0 * part)};
+    return {Health::kWarn, formatted("slower than requested: %.0f %% of the time lost", 100.0 * part)};
   return {};
 }
 

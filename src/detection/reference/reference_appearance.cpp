@@ -101,7 +101,7 @@ std::string ReferenceAppearance::faultOf(const cv::Mat& image, const Quadrilater
   if (image.type() != CV_8UC1 && image.type() != CV_8UC3)
     return "the image has neither one nor three channels of eight bits";
   if (!geometry::isFinite(opening) || !geometry::isConvex(opening))
-    return "the corners are no convex quadrilateral";
+    return "the corners are not a convex quadrilateral";
   for (const Vector2d& corner : opening)
     if (corner.x() < -0.5 || corner.y() < -0.5 || corner.x() > image.cols - 0.5 ||
         corner.y() > image.rows - 0.5)

@@ -30,7 +30,7 @@ std::uint32_t seedOf(const CsvReader& row) {
   constexpr double kMax = std::numeric_limits<std::uint32_t>::max();
   const double seed = row.number(0);
   if (!(seed >= 0.0 && seed <= kMax && seed == std::floor(seed)))
-    row.fail("seed '" + row.text(0) + "' is no whole number from 0 to 4294967295");
+    row.fail("seed '" + row.text(0) + "' is not a whole number from 0 to 4294967295");
   return static_cast<std::uint32_t>(seed);
 }
 
@@ -46,7 +46,7 @@ Outcome outcomeOf(const CsvReader& row) {
   for (const Outcome outcome : {Outcome::kRunning, Outcome::kPassed, Outcome::kCollision,
                                 Outcome::kFalseIngress, Outcome::kAborted, Outcome::kTimeout})
     if (name == toString(outcome)) return outcome;
-  row.fail("'" + name + "' is no outcome");
+  row.fail("'" + name + "' is not an outcome");
 }
 
 FlightResult flightOf(const CsvReader& row) {
@@ -185,7 +185,7 @@ FlightDraws readDraws(const std::string& file) {
   FlightDraws draws;
   while (rows.nextWhole()) {
     const auto [draw, is_new] = draws.try_emplace(seedOf(rows));
-    if (!is_new) rows.fail("seed " + rows.text(0) + " stands there twice");
+    if (!is_new) rows.fail("seed " + rows.text(0) + " is listed twice");
     for (std::size_t i = 1; i < keys.size(); ++i) draw->second[keys[i]] = quantileOf(rows, i);
   }
   return draws;

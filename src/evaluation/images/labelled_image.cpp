@@ -63,7 +63,7 @@ class Annotations {
     for (int i = 0; i < 4; ++i)
       quad[i] = {number("x" + std::to_string(i + 1)), number("y" + std::to_string(i + 1))};
     const auto canonical = geometry::canonical(quad);
-    if (!canonical) rows_.fail("the corners are no convex quadrilateral");
+    if (!canonical) rows_.fail("the corners are not a convex quadrilateral");
     return *canonical;
   }
 
@@ -157,8 +157,8 @@ std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
   for (const auto& sample : samples) names.insert(sample.group);
   if (names.size() < 2)
     throw std::invalid_argument(
-        "the images are all of one group (one second of a bag; names that differ in their last digit only, "
-        "as of one video): none can be held out; label images of two places at least");
+        "all images belong to one group (one second of a bag, or names that differ in the last digit only): "
+        "none can be held out; label images of at least two places");
   std::vector<std::string> groups(names.begin(), names.end());
   std::mt19937 random(seed);
   for (std::size_t i = groups.size() - 1; i > 0; --i) std::swap(groups[i], groups[random() % (i + 1)]);

@@ -160,9 +160,8 @@ void addResult(const cv::Mat& image, const DetectorParams& params,
 cv::Mat stageSheet(const cv::Mat& image, const DetectorParams& params,
                    const detection::ReferenceAppearance* reference, int cell_width_px) {
   if ((image.type() != CV_8UC1 && image.type() != CV_8UC3) || std::min(image.cols, image.rows) < kSmallest_px)
-    throw std::invalid_argument(
-        "an image of 8 bits, grey or colour, with at least 64 pixels each way is needed");
-  if (cell_width_px < kSmallest_px) throw std::invalid_argument("the pictures of the sheet are too small");
+    throw std::invalid_argument("needs an 8-bit image, grey or colour, of at least 64 x 64 pixels");
+  if (cell_width_px < kSmallest_px) throw std::invalid_argument("the images on the sheet are too small");
   ContactSheet sheet(kSheetColumns, cell_width_px);
   addStages(image, params, sheet);
   addResult(image, params, reference, sheet);

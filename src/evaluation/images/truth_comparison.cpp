@@ -67,9 +67,9 @@ void TruthSummary::add(const TruthErrors& errors) {
 
 std::string TruthSummary::text() const {
   return formatted(
-      "%d images with truth, %d show the window whole\n"
-      "found in %d of them (%.1f %%), something else taken for it in %d\n"
-      "of the others: found in %d, something else taken for it in %d\n"
+      "%d images with truth, %d of them show the whole window\n"
+      "whole window: found in %d (%.1f %%), something else mistaken for it in %d\n"
+      "other images: found in %d, something else mistaken for it in %d\n"
       "corners: RMS x %.3f y %.3f px, mean x %+.3f y %+.3f px, outward %+.3f px, median distance %.3f "
       "px, worst %.3f px (%d images)\n"
       "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",

@@ -22,9 +22,9 @@ void checkFits(const Scenario& s, std::vector<std::string>& faults) {
   if (s.window.sill_m - s.window.frame_width_m < kMinWallAround_m)
     faults.push_back("window/sill_m: the window's frame reaches into the ground");
   if (s.window.bars != "none" && s.window.closed_by == "none")
-    faults.push_back("window/bars: an open window has none; close it by glass or the like");
+    faults.push_back("window/bars: an open window has none; set closed_by, e.g. glass");
   if (s.window.dirt > 0.0 && s.window.closed_by != "glass")
-    faults.push_back("window/dirt: is on glass only; say closed_by: glass");
+    faults.push_back("window/dirt: only glass can be dirty; set closed_by: glass");
 }
 
 // The area of a window or a poster on the wall, relative to the target's centre.
@@ -99,12 +99,12 @@ void checkLens(const Scenario& s, std::vector<std::string>& faults) {
   const CameraParams& camera = s.camera;
   if (camera.lens == "equidistant") {
     if (camera.p1 != 0.0 || camera.p2 != 0.0)
-      faults.push_back("camera/p1, camera/p2: must be 0, a lens that is equidistant has none");
+      faults.push_back("camera/p1, camera/p2: must be 0, an equidistant lens has none");
     return;
   }
-  if (camera.k4 != 0.0) faults.push_back("camera/k4: must be 0, only a lens that is equidistant has it");
+  if (camera.k4 != 0.0) faults.push_back("camera/k4: must be 0, only an equidistant lens has it");
   if (camera.horizontal_fov_rad > 2.4)
-    faults.push_back("camera/horizontal_fov_rad: more than 2.4 needs a lens that is equidistant");
+    faults.push_back("camera/horizontal_fov_rad: more than 2.4 needs an equidistant lens");
 }
 
 void checkFaults(const Scenario& s, std::vector<std::string>& faults) {
@@ -182,16 +182,16 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
 std::string whyNoSuchFault(const FaultParams& fault) {
   const std::string what = fault.unit + " " + fault.kind + ": ";
   if (fault.unit == "clock" && fault.kind == "garbage")
-    return what + "a time has no bits that are no time; take wrong";
-  if (fault.kind == "slide" && fault.unit != "odom") return what + "only odom slides";
+    return what + "every bit pattern is a valid time; use wrong";
+  if (fault.kind == "slide" && fault.unit != "odom") return what + "only odom can slide";
   if (fault.unit == "camera_info" && fault.kind == "stuck")
-    return what + "the calibration never changes; take off or wrong";
+    return what + "the calibration never changes; use off or wrong";
   return "";
 }
 
 std::string whyNotBesideExternalVehicle(const FaultParams& fault) {
   if (fault.unit == "image" || fault.unit == "camera_info") return "";
-  return fault.unit + " " + fault.kind + ": with vehicle external, " + fault.unit + " is not the world's";
+  return fault.unit + " " + fault.kind + ": with vehicle external, the world does not simulate " + fault.unit;
 }
 
 }  // namespace window_ingress::simulation

@@ -84,7 +84,7 @@ void Glazing::create(const GlFunctions& gl, const geometry::PinholeCamera& camer
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("OpenGL refuses a framebuffer for what glass mirrors");
+    throw std::runtime_error("OpenGL refuses a framebuffer for reflections in glass");
 }
 
 cv::Rect Glazing::partIn(const Eigen::Isometry3d& T_camera_window) const {

@@ -25,7 +25,7 @@ class FollowedVehicle {
         !truth.angular_velocity_base_radps.allFinite() || !std::isfinite(stamp_sec))
       throw std::invalid_argument("pose, twist or stamp of the followed vehicle is not finite");
     if (!path_.empty() && stamp_sec <= path_.back().stamp_sec)
-      throw std::invalid_argument("stamp of the followed vehicle is not after the one before");
+      throw std::invalid_argument("stamp of the followed vehicle is not after the previous one");
     while (path_.size() > 1 && path_[1].stamp_sec <= path_.back().stamp_sec - kMemorySec) path_.pop_front();
     if (path_.empty()) truth_ = truth;
     path_.push_back({truth, stamp_sec});

@@ -90,8 +90,8 @@ def rows():
     return [
         Row("M15", "another size", "image_raw", sized(320, 240), [(INFO, "sizes differ", "320x240")], STOPS),
         Row("M15", "another encoding", "image_raw", sized(640, 480, "mono8"), [], GOES_ON),
-        Row("M19", "each stamp twice", "image_raw", Repeating(image), [], FLIES_ON, "is not after the one before"),
-        Row("M19", "every other frame from before", "image_raw", Shuffled(image, 0.2), [], FLIES_ON, "is not after the one before"),
+        Row("M19", "each stamp twice", "image_raw", Repeating(image), [], FLIES_ON, "is not after the previous one"),
+        Row("M19", "every other frame from before", "image_raw", Shuffled(image, 0.2), [], FLIES_ON, "is not after the previous one"),
         Row("M22", "no frame_id in images", "image_raw", changed(image, header__frame_id=""),
             [(MOUNTING, "base_link <- ''")], STOPS),
         Row("M22", "frame_id of another camera", "image_raw", changed(image, header__frame_id="rear"),

@@ -101,7 +101,7 @@ TEST_F(FlightResults, NamesFileAndLineOfWhatIsWrong) {
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
   EXPECT_TRUE(test::says(error({good}), "flights.csv:2: has not 12 fields"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
-  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: 'LANDED' is no outcome"));
+  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: 'LANDED' is not an outcome"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
   EXPECT_TRUE(test::says(error({good}), "'soon' is not a number"));
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
@@ -117,12 +117,13 @@ TEST_F(FlightResults, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
   ASSERT_EQ(draws.size(), 2u);
   EXPECT_EQ(draws.at(3).at("wind/x_mps"), 0.25);
   EXPECT_TRUE(test::says(errorOf("wind/x_mps\n0.5\n"), "must begin with 'seed'"));
-  EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n"), ":3: seed 3 stands there twice"));
+  EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n"), ":3: seed 3 is listed twice"));
   EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3\n"), ":2: "));
   for (const char* quantile : {"nan", "1.5", "-0.1"})
     EXPECT_TRUE(test::says(errorOf(std::string("seed,wind/x_mps\n3,") + quantile), "is not from 0 to 1"));
   for (const char* seed : {"-1", "0.5", "nan", "1e10"})
-    EXPECT_TRUE(test::says(errorOf(std::string("seed,wind/x_mps\n") + seed + ",0.5"), "is no whole number"));
+    EXPECT_TRUE(
+        test::says(errorOf(std::string("seed,wind/x_mps\n") + seed + ",0.5"), "is not a whole number"));
 }
 
 }  // namespace window_ingress::evaluation::flight_results_test

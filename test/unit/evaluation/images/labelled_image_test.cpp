@@ -91,7 +91,7 @@ TEST_F(LabelledFile, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_TRUE(test::says(errorOf(header_ + "none.png,,1,1,5,1,5,5,1,5\n"), "none.png: cannot be read"));
   EXPECT_TRUE(
       test::says(errorOf(header_ + "\na.png,,1,1,5,1,5,nan,1,5\n"), "labels.csv:3: 'nan' is not a number"));
-  EXPECT_TRUE(test::says(errorOf(header_ + "a.png,,1,1,5,5,5,1,1,5\n"), "no convex quadrilateral"));
+  EXPECT_TRUE(test::says(errorOf(header_ + "a.png,,1,1,5,5,5,1,1,5\n"), "not a convex quadrilateral"));
 }
 
 TEST(Labelled, WholeNoneAndInPart) {

@@ -168,7 +168,8 @@ TEST(ClearPane, DirtIsSeenOnItAndMovesWithIt) {
     EXPECT_LT(part, 0.3) << y_m;
   }
   dirty.window.closed_by = "none";
-  EXPECT_EQ(faultsOf(dirty), std::vector<std::string>{"window/dirt: is on glass only; say closed_by: glass"});
+  EXPECT_EQ(faultsOf(dirty),
+            std::vector<std::string>{"window/dirt: only glass can be dirty; set closed_by: glass"});
 }
 
 TEST(ClearPane, IsSolidThoughTheRoomIsSeenThroughIt) {
