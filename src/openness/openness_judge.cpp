@@ -170,8 +170,8 @@ void OpennessJudge::conclude() {
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
     verdict.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
   } else if (all.moving > 0 && !sure_open) {
-    verdict.reason = formatted("something moved by itself on %d stretches of the flight, log odds %.1f",
-                               all.moving, all.log_odds);
+    verdict.reason =
+        formatted("something moved on %d stretches of the flight, log odds %.1f", all.moving, all.log_odds);
   } else if (!sure_open) {
     verdict.reason = formatted("%d points followed, log odds %.1f", says_.points, all.log_odds);
   } else if (share.closed > kMaxClosed) {

@@ -101,7 +101,7 @@ tools::OptionList describe(Options& o) {
   add("window-size", o.size, "W,H: inner size of the opening [m]; with --camera: poses");
   add("params", o.params, tools::kParamsHelp);
   add("track", o.track, "the images are a sequence: follow the window through it");
-  add("rate", o.rate_hz, "with --track: images a second", {1e-3, 1e4});
+  add("rate", o.rate_hz, "with --track: images per second", {1e-3, 1e4});
   add("candidates", o.candidates, "csv file of every candidate and what became of it");
   add("overlay", o.overlay, "folder for pictures of what happened to each candidate");
   add.unnamed.add("input", -1);

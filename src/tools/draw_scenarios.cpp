@@ -24,9 +24,9 @@ struct Job {
 tools::OptionList describe(Job& job) {
   tools::OptionList add("Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
   add.required("output,o", job.output, "the sheet");
-  add("seed", job.seed, "of the first scenario; each further one has the next");
-  add("columns", job.columns, "pictures in a row", {1, 1000});
-  add("width", job.cell_width_px, "of each picture [px]", {64, 4096});
+  add("seed", job.seed, "seed of the first scenario; each later one uses the next seed");
+  add("columns", job.columns, "images per row", {1, 1000});
+  add("width", job.cell_width_px, "width of each image [px]", {64, 4096});
   add("scenario", job.files, "scenario files; need no name");
   job.view.describe(add);
   add.unnamed.add("scenario", -1);

@@ -33,10 +33,10 @@ tools::OptionList describe(Job& job) {
   tools::OptionList add("Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE");
   add.required("output,o", job.output, "the sheet");
   add("scenario", job.scenario, "scenario file; the view is from its start");
-  add("seed", job.seed, "of the scenario");
+  add("seed", job.seed, "seed of the scenario");
   add("image", job.image, "an image instead of a scenario; without a reference");
   add("params", job.params, tools::kParamsHelp);
-  add("width", job.cell_width_px, "of each picture on the sheet [px]", {64, 4096});
+  add("width", job.cell_width_px, "width of each image on the sheet [px]", {64, 4096});
   job.view.describe(add);
   add.unnamed.add("image", 1);
   return add;

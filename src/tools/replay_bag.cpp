@@ -37,11 +37,11 @@ tools::OptionList describe(Options& o) {
   add.required("bag", o.bag, "bag to read");
   add.required("output,o", o.output, "folder to write into");
   add("overwrite", o.overwrite, "replaces the replay in DIR");
-  add("image", o.topics.image, "topic; else the only one of its type");
-  add("camera-info", o.topics.camera_info, "likewise");
-  add("odom", o.topics.odom, "likewise");
-  add("imu", o.topics.imu, "likewise");
-  add("reference", o.reference.picture, "image of the target with its frame; else that of the bag");
+  add("image", o.topics.image, "topic; default: the only one of its type");
+  add("camera-info", o.topics.camera_info, "topic; default: the only one of its type");
+  add("odom", o.topics.odom, "topic; default: the only one of its type");
+  add("imu", o.topics.imu, "topic; default: the only one of its type");
+  add("reference", o.reference.picture, "image of the target with its frame; default: that of the bag");
   add("reference-corners", o.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
   add("window-size", o.size, "W,H: inner size of the opening [m]; without it, here or in --params, no poses");
   add("params", o.params, tools::kParamsHelp);

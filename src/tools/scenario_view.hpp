@@ -13,8 +13,8 @@ struct ViewOptions {
   double distance_m = 0.0, off_axis_rad = 0.0;
 
   void describe(OptionList& add) {
-    add("distance", distance_m, "instead of the start's [m]");
-    add("off-axis", off_axis_rad, "with --distance: instead of the start's [rad]");
+    add("distance", distance_m, "distance from the window [m]; 0: as in the scenario");
+    add("off-axis", off_axis_rad, "with --distance: angle off the window's axis [rad]");
   }
   void check() const {
     if (!(distance_m >= 0.0)) throw InputError("--distance: needs metres, above 0");

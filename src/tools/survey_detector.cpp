@@ -41,17 +41,17 @@ tools::OptionList describe(Options& o) {
       "Draws random views of each scenario, looks for the window in each, and compares with the truth.\n"
       "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.");
   add("scenario", o.scenarios, "scenario files");
-  add("frames", o.frames, "of each scenario", {1, 1e6});
-  add("seed", o.seed, "of the first frame; each further one has the next");
+  add("frames", o.frames, "number of frames per scenario", {1, 1e6});
+  add("seed", o.seed, "seed of the first frame; each later one uses the next seed");
   add.required("output,o", o.output, "folder of the results");
   add("params", o.params, tools::kParamsHelp);
-  add("no-reference", o.no_reference, "without the image of the target");
+  add("no-reference", o.no_reference, "gives the detector no image of the target");
   add("distance", o.distance, "NEAREST,FARTHEST [m]");
   add("at", o.at, "D1,D2,...: at these distances in turn, instead of --distance [m]");
-  add("off-axis", o.off_axis_deg, "to either side, at most [deg]", {0.0, 84.9});
+  add("off-axis", o.off_axis_deg, "largest angle to either side [deg]", {0.0, 84.9});
   add("static-camera", o.still, "the camera does not move");
-  add("without-target", o.without_target, "the scenario, but the wall closed at the target");
-  add("antialiasing", o.antialiasing, "instead of the scenario's: edges or multisampling");
+  add("without-target", o.without_target, "replaces the target by closed wall");
+  add("antialiasing", o.antialiasing, "edges or multisampling; overrides the scenario");
   add("save", o.save, "folder for the images and the truth about them");
   add("overlay", o.overlay, "folder for pictures of the frames that went wrong; truth in white");
   add("load", o.folders, "images from such folders, instead of drawing them");

@@ -28,12 +28,11 @@ tools::OptionList describe(Options& o) {
       "Usage: survey_filter --output DIR [options]\n"
       "Flies synthetic approaches (no images: borders with noise and lasting errors, odometry that drifts,\n"
       "attitude that is wrong) through estimator and filter and compares with the truth.\n"
-      "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % "
-      "band.\n");
+      "Writes DIR/filter.csv with a row an image; prints the normalised error squared and its 95 % band.\n");
   add.required("output,o", o.output, "folder of the results");
   add("runs", o.runs, "approaches", {2, 1e5});
-  add("seed", o.seed, "of the first approach");
-  add("size", o.size, "of the opening: known or unknown");
+  add("seed", o.seed, "seed of the first approach");
+  add("size", o.size, "size of the opening: known or unknown");
   add("params", o.params, tools::kParamsHelp);
   return add;
 }

@@ -38,9 +38,9 @@ tools::OptionList describe(Options& o) {
   add("synthetic", o.synthetic, "approaches of each kind without images");
   add("glass", o.glass, "approaches without images to panes of each of several reflectivities");
   add("scenario", o.scenarios, "scenario files instead of random windows, --open approaches each");
-  add("seed", o.seed, "of the first approach; each further one has the next");
+  add("seed", o.seed, "seed of the first approach; each later one uses the next seed");
   add("params", o.params, tools::kParamsHelp);
-  add("rate", o.range.rate_hz, "of the images [1/s]", {1.0, 120.0});
+  add("rate", o.range.rate_hz, "image rate [1/s]", {1.0, 120.0});
   add("decide", o.range.decide_m, "distance at which the verdict counts [m]");
   add("trace", o.trace, "csv file: the verdict over each approach");
   add.required("output,o", o.output, "folder of the results");

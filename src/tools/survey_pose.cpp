@@ -43,17 +43,17 @@ tools::OptionList describe(Options& o) {
       "same\nborders cross. Writes DIR/cells.csv, prints yaw RMSE over bound as a table.\n"
       "With --load: from the pixels of images that survey_detector has saved to the pose, against the "
       "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.");
-  add("draws", o.draws, "of each cell", {1, 1e7});
+  add("draws", o.draws, "number of draws per cell", {1, 1e7});
   add("at", o.distances, "distances [m]");
-  add("yaw", o.yaws, "against the line of sight, to either side [deg]");
-  add("noise", o.noises, "of each pixel along a border [px]");
-  add("seed", o.seed, "of the first cell; each further one has the next");
+  add("yaw", o.yaws, "yaws against the line of sight, to either side [deg]");
+  add("noise", o.noises, "noise of each pixel along a border [px]");
+  add("seed", o.seed, "seed of the first cell; each later one uses the next seed");
   add.required("output,o", o.output, "folder of the results");
   add("camera", o.camera, "calibration without distortion; default 640 x 480, f = 554 px");
   add("window-size", o.window_size, "W,H of the opening; default 1,1 [m]");
   add("load", o.folders, "folders of images");
   add("params", o.params, tools::kParamsHelp);
-  add("attitude", o.attitude_deg, "with --load: the attitude is known with this error [deg]");
+  add("attitude", o.attitude_deg, "with --load: error of the known attitude [deg]");
   return add;
 }
 

@@ -40,14 +40,14 @@ tools::OptionList describe(Options& o) {
       "Follows the window on random flights towards it, without a navigator, and compares with the truth.\n"
       "Writes DIR/<scenario>.csv with a row a frame, prints a table.");
   add("scenario", o.scenarios, "scenario files");
-  add("flights", o.flights, "in each scenario", {1, 1e6});
-  add("seed", o.seed, "of the first flight; each further one has the next");
+  add("flights", o.flights, "number of flights per scenario", {1, 1e6});
+  add("seed", o.seed, "seed of the first flight; each later one uses the next seed");
   add.required("output,o", o.output, "folder of the results");
   add("params", o.params, tools::kParamsHelp);
-  add("speed", o.range.speed_mps, "towards the plane [m/s]", {0.1, 10.0});
-  add("end", o.range.end_m, "of the flight, before the plane [m]", {0.2, 3.0});
-  add("wobble", o.range.wobble_rad, "of the attitude [rad]", {0.0, 0.3});
-  add("no-reference", o.no_reference, "without the image of the target");
+  add("speed", o.range.speed_mps, "speed towards the plane [m/s]", {0.1, 10.0});
+  add("end", o.range.end_m, "distance from the plane at which the flight ends [m]", {0.2, 3.0});
+  add("wobble", o.range.wobble_rad, "wobble of the attitude [rad]", {0.0, 0.3});
+  add("no-reference", o.no_reference, "gives the detector no image of the target");
   add("no-attitude", o.no_attitude, "the tracker does not know the attitude");
   return add;
 }

@@ -49,10 +49,10 @@ tools::OptionList describe(Job& job) {
                     "NAME=VALUE, like edges/floor=4.5; may be repeated");
   add("reference", job.reference.picture, "image of the target");
   add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
-  add("image", job.topic, "topic of the images in a bag; else the only one");
-  add("every", job.every, "take one image of a bag in so many", {1, 1e6});
-  add("most", job.most, "images of a bag, at most", {1, 1e6});
-  add("width", job.width, "of each picture on the sheet of stages [px]", {64, 4096});
+  add("image", job.topic, "topic of the images in a bag; default: the only one");
+  add("every", job.every, "use every N-th image of a bag", {1, 1e6});
+  add("most", job.most, "maximum number of images from a bag", {1, 1e6});
+  add("width", job.width, "width of each image on the sheet of stages [px]", {64, 4096});
   add("headless", job.headless, "no windows: look at all images once, print, save");
   add("sheet", job.sheet, "headless: also write the sheet of stages of the first image");
   add.unnamed.add("source", 1);

@@ -48,16 +48,16 @@ tools::OptionList describe(Job& job) {
   add("bag", job.bags, "bags with images, calibration and truth");
   add("truth", job.topics.truth, "PoseStamped with the true T_camera_window, by stamp");
   add("window-size", job.size, "W,H: inner size of the opening [m]");
-  add("image", job.topics.image, "topic; else the only one of its type");
-  add("camera-info", job.topics.camera_info, "likewise");
-  add("every", job.every, "take one image of a bag in so many", {1, 1e6});
+  add("image", job.topics.image, "topic; default: the only one of its type");
+  add("camera-info", job.topics.camera_info, "topic; default: the only one of its type");
+  add("every", job.every, "use every N-th image of a bag", {1, 1e6});
   add("reference", job.reference.picture, "image of the target");
   add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
   add("params", job.params, tools::kParamsHelp);
   add("names", job.names, "parameters that may be changed, with commas between, like edges/floor");
   add("trials", job.trials, "settings to try", {1, 1e6});
   add("held-out", job.held_out, "share of the groups that is used for judging only", {0.01, 0.99});
-  add("seed", job.seed, "of the parts and of the search");
+  add("seed", job.seed, "seed of the split and of the search");
   return add;
 }
 

@@ -127,7 +127,7 @@ class Words {
                   tracker.unverified()};
     } else if (reason.empty()) {
       reject = FilteredPose::REFUSED;
-      reason = "no image has contributed lately";
+      reason = "no image was used recently";
     }
     message.filtered.header.frame_id = facts_.frames.odom;
     message.filtered.reject = reject;

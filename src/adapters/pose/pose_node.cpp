@@ -164,7 +164,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
                 tracker_.approachForbidden(*state),
                 tracker_.unverified()};
   } else if (unused.reason.empty()) {
-    unused = {window_ingress::FilteredPose::REFUSED, "no image has contributed lately"};
+    unused = {window_ingress::FilteredPose::REFUSED, "no image was used recently"};
   }
   if (state)
     unused_ = UnusedImages();
