@@ -315,7 +315,7 @@ def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys)
 
 def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_found(doctor, capsys):
     said_by(doctor, ingress_navigator__mission=(1, "ABORTED: window not found in 3 turns"), homography_pose__target=(
-        2, "a window is seen in 186 images, but used in none: it is 1.20 times as wide as it is high, but the configured opening of 1.00 x 1.20 m 0.83 times"))
+        2, "a window is seen in 186 images, but used in none: it is 1.20 times as wide as it is high, but the configured opening, 1.00 x 1.20 m, is 0.83 times"))
     lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
     assert lines[0].startswith("ERROR  homography_pose: target: a window is seen in 186 images") and lines[1].startswith("       mend: measure the opening's")
     assert lines[2] == "       follows: ingress_navigator: mission: ABORTED: window not found in 3 turns" and lines[3].startswith("1 finding(s) to mend")

@@ -63,7 +63,7 @@ Health targetHealth(const UnusedImages& unused, const geometry::OpeningSize& wan
   if (unused.aspect == 0.0 || misfit < std::max(kLeastMisfit, kSigmas * unused.aspect_sigma / said))
     return {Health::kError, seen + unused.why};
   return {Health::kError, seen + formatted("it is %.2f times as wide as it is high, but the configured "
-                                           "opening of %.2f x %.2f m %.2f times",
+                                           "opening, %.2f x %.2f m, is %.2f times",
                                            unused.aspect, wanted.width_m, wanted.height_m, said)};
 }
 
