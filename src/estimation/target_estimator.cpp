@@ -244,8 +244,9 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
   checkSize(image, *T_odom_camera);
   if (filter_.update(last_.pose.estimate, window, image.camera, *T_odom_camera, motion_)) return "";
   const auto [width_m, height_m] = lookedFor();
-  return formatted("gated out: does not fit earlier images or an opening of %.2f x %.2f m", width_m,
-                   height_m);
+  return formatted(
+      "gated out: does not fit earlier images, an opening of %.2f x %.2f m or the camera's angles", width_m,
+      height_m);
 }
 
 // Attitude of the IMU, unless there is none or it uses other axes.

@@ -29,8 +29,9 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, launch_folder, record,
-      bag, plays;
+      image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, print, launch_folder,
+      record, bag, plays;
+  int seed = 1;
 };
 
 tools::OptionList describe(Options& o) {
@@ -51,7 +52,9 @@ tools::OptionList describe(Options& o) {
   add("image-transport", o.image_transport, "how images are transported, e.g. raw");
   add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
-  add("flown-by", o.flown_by, "parameter file whose sizes are compared with the simulated world's");
+  add("seed", o.seed, "of the simulated world", {0, 2147483647});
+  add("flown-by", o.flown_by, "parameter file whose sizes fly in the simulated world instead of its own");
+  add("print", o.print, "prints nothing but this size, e.g. vehicle/half_width_m, as flown in the scenario");
   add("record", o.record, "bag file to write; must not exist yet");
   add("bag", o.bag, "bag file to play; several separated by blanks");
   add("plays", o.plays,
@@ -137,17 +140,6 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
                           pose.opening_width_m, pose.opening_height_m));
   }
   tools::takeWindowSize("window_size", text, pose);
-}
-
-// Detects width and height exchanged, or one of them misread. An oblique view differs by less.
-void checkAspect(double in_image, const estimation::PoseParams& opening) {
-  constexpr double kMaxRatio = 1.25;
-  const double said = opening.opening_width_m / opening.opening_height_m;
-  if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
-  tools::warn(
-      formatted("the opening, %g x %g m, is %.3g times as wide as it is high, but %.3g times in the "
-                "reference image: measure both sides and check the corners",
-                opening.opening_width_m, opening.opening_height_m, said, in_image));
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -236,7 +228,7 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
   if (aspect > 0.0 && (tools::saysOpening(overlay) || !given(o.window_size).empty()))
-    checkAspect(aspect, overlay.homography_pose.pose);
+    tools::checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
   const bool by_argument = !given(o.window_size).empty();
   if (!by_argument) tools::checkBothSides(overlay);
@@ -252,13 +244,16 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
 }
 
 // Faults of the parameter file are reported where it is loaded.
-void checkScenario(const Options& o) {
-  const auto scenario = simulation::loadScenario(o.scenario, 1);
-  configuration::Overlay overlay;
-  if (given(o.flown_by).empty() ||
-      !tools::InputFaults().collect([&] { overlay = configuration::readOverlay(given(o.flown_by)); }))
-    return;
+void checkScenario(const Options& o, configuration::Overlay& overlay) {
+  const auto scenario = simulation::loadScenario(o.scenario, static_cast<std::uint32_t>(o.seed));
+  if (!tools::InputFaults().collect([&] { overlay = tools::flownIn(scenario, given(o.flown_by)); })) return;
   if (const std::string other = tools::otherSizes(overlay, scenario); !other.empty()) tools::warn(other);
+}
+
+int printSize(const Options& o) {
+  const auto scenario = simulation::loadScenario(o.scenario, static_cast<std::uint32_t>(o.seed));
+  std::cout << tools::sizeCalled(o.print, tools::flownIn(scenario, given(o.flown_by))) << "\n";
+  return 0;
 }
 
 int check(const Options& o) {
@@ -266,6 +261,7 @@ int check(const Options& o) {
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
                             o.scenario.empty() && o.launch_folder.empty() && o.bag.empty();
   if (asks_nothing) throw InputError("no file given; see --help");
+  if (!o.print.empty()) return printSize(o);
   tools::InputFaults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
   const std::string file = given(o.file);
@@ -275,7 +271,7 @@ int check(const Options& o) {
   });
   if (is_read) checkOverlay(o, file, overlay, faults);
   faults.collect([&] { checkCameraPose(given(o.camera_pose), overlay.vehicle); });
-  if (!o.scenario.empty()) faults.collect([&] { checkScenario(o); });
+  if (!o.scenario.empty()) faults.collect([&] { checkScenario(o, overlay); });
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.collect([&] { tools::checkPlayed(o.bag, o.plays); });
   faults.throwIfAny();

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "evaluation/flights/told_sizes.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/text/text.hpp"
@@ -59,6 +61,24 @@ inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
 }
 
+/// What flies in the simulated world: the sizes of the parameter file, else the world's.
+inline configuration::Overlay flownIn(const simulation::Scenario& scenario, const std::string& file) {
+  configuration::Overlay overlay = configuration::readOverlay(file);
+  evaluation::tellSizes(scenario, overlay.said, overlay.vehicle, overlay.homography_pose.pose);
+  return overlay;
+}
+
+// Detects width and height exchanged, or one of them misread. An oblique view differs by less.
+inline void checkAspect(double in_image, const estimation::PoseParams& opening) {
+  constexpr double kMaxRatio = 1.25;
+  const double said = opening.opening_width_m / opening.opening_height_m;
+  if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
+  warn(
+      formatted("the opening, %g x %g m, is %.3g times as wide as it is high, but %.3g times in the "
+                "reference image: measure both sides and check the corners",
+                opening.opening_width_m, opening.opening_height_m, said, in_image));
+}
+
 /// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.
 inline std::string otherSizes(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
   const auto differs = [&](const char* key, double said, double fact) {
@@ -82,6 +102,20 @@ inline std::string otherSizes(const configuration::Overlay& overlay, const simul
                       : "the file says " + text +
                             ": the navigator uses the file's sizes, the referee the world's; give a scenario "
                             "with your sizes (window, vehicle)";
+}
+
+/// \param name as in a parameter file
+inline double sizeCalled(const std::string& name, const configuration::Overlay& overlay) {
+  const auto& vehicle = overlay.vehicle;
+  const auto& pose = overlay.homography_pose.pose;
+  const std::map<std::string, double> sizes = {
+      {"vehicle/half_length_m", vehicle.half_length_m},
+      {"vehicle/half_width_m", vehicle.half_width_m},
+      {"vehicle/half_height_m", vehicle.half_height_m},
+      {"homography_pose/pose/opening_width_m", pose.opening_width_m},
+      {"homography_pose/pose/opening_height_m", pose.opening_height_m}};
+  if (const auto size = sizes.find(name); size != sizes.end()) return size->second;
+  throw InputError("--print " + name + ": not a size of vehicle or opening");
 }
 
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.

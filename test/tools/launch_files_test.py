@@ -171,6 +171,18 @@ def test_a_simulated_flight_says_where_the_file_has_other_sizes_than_the_world(t
     assert "the world has" not in run("roslaunch", "--nodes", ROOT / "launch/sim.launch", f"config:={config}").stderr
 
 
+def test_the_simulated_world_is_flown_by_the_sizes_of_its_scenario_unless_the_users_file_gives_others(tmp_path):
+    def sizes(*arguments):
+        params = dump("sim", f"scenario:={ROOT}/config/scenarios/tight.yaml", *arguments)["params"]
+        return [params[f"/{key}"] for key in ("homography_pose/pose/opening_width_m", "homography_pose/pose/opening_height_m",
+                                              "vehicle/half_length_m", "vehicle/half_width_m", "vehicle/half_height_m")]
+
+    assert sizes() == [0.64, 0.45, 0.2, 0.2, 0.07]
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle: {half_width_m: 0.22}\nhomography_pose: {pose: {opening_width_m: 0.7}}\n")
+    assert sizes(f"config:={config}") == [0.7, 0.45, 0.2, 0.22, 0.07]
+
+
 @pytest.mark.parametrize("text, is_said", [
     ("{}", False), ("vehicle: {half_width_m: 0.3}", False), ("homography_pose: {pose: {opening_width_m: 1.3}}", False),
     ("homography_pose: {odom_wait_sec: 0.1}", False), ("homography_pose: {pose: {scale_sigma: 0.0}}", False),
