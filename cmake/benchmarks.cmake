@@ -1,10 +1,10 @@
-# Measurements, never part of the package or of its tests; scripts/bench installs, builds and runs them (target
-# `benchmarks`). What is not installed is left out, saying so.
-#   benchmark_draw_frames  the images that need no recordings
-#   benchmark_detection    times, with Google Benchmark
-#   benchmark_pose         likewise, of a pose from one image
-#   benchmark_instructions the same, counted under callgrind
-#   benchmark_allocations  allocations an image, by who asks for them
+# Benchmarks, not part of the package or its tests. scripts/bench builds (target `benchmarks`) and runs them. A benchmark
+# whose library is not installed is left out with a message.
+#   benchmark_draw_frames  draws the images that need no recordings
+#   benchmark_detection    detection times, with Google Benchmark
+#   benchmark_pose         times of a pose from one image, with Google Benchmark
+#   benchmark_instructions detection instructions, counted under callgrind
+#   benchmark_allocations  allocations per image, by caller
 #   benchmark_memory       memory over an hour's worth of images
 set(folder ${PROJECT_SOURCE_DIR}/test/benchmark)
 
@@ -23,7 +23,7 @@ else()
   message(STATUS "benchmarks: without AprilTag (libapriltag-dev is not installed)")
 endif()
 
-# Markers moved from the contributed module into objdetect with OpenCV 4.7.
+# OpenCV 4.7 moved ArUco from the contrib module into objdetect.
 find_path(ARUCO_INCLUDE_DIR NAMES opencv2/objdetect/aruco_detector.hpp opencv2/aruco.hpp PATHS ${OpenCV_INCLUDE_DIRS})
 if(ARUCO_INCLUDE_DIR AND TARGET opencv_aruco)
   target_compile_definitions(benchmark_support PRIVATE WINDOW_INGRESS_WITH_ARUCO)

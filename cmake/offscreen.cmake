@@ -1,8 +1,8 @@
-# What the simulated world draws by: OSMesa where it is found, else EGL without a surface; both are llvmpipe.
-# Sets OFFSCREEN_LIBRARY and OFFSCREEN_INCLUDE_DIR; OFFSCREEN_EXCLUDED is the source left out, OFFSCREEN_OTHER_LIBRARY what it
-# would need.
+# Renderer of the simulated world: OSMesa if it is installed, otherwise EGL without a surface. Both use llvmpipe.
+# Sets OFFSCREEN_LIBRARY and OFFSCREEN_INCLUDE_DIR. OFFSCREEN_EXCLUDED and OFFSCREEN_OTHER_LIBRARY are source and library of
+# the other renderer.
 #catkin_lint: ignore_once global_var_collision
-set(WINDOW_INGRESS_OFFSCREEN AUTO CACHE STRING "What the simulated world draws by: AUTO, OSMESA or EGL")
+set(WINDOW_INGRESS_OFFSCREEN AUTO CACHE STRING "Renderer of the simulated world: AUTO, OSMESA or EGL")
 set_property(CACHE WINDOW_INGRESS_OFFSCREEN PROPERTY STRINGS AUTO OSMESA EGL)
 
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h)
@@ -28,7 +28,7 @@ if(NOT offscreen MATCHES "^(OSMESA|EGL)$")
 elseif(NOT with_${offscreen})
   message(FATAL_ERROR "${offscreen} is not installed: the simulated world needs libosmesa6-dev or libegl-dev")
 endif()
-message(STATUS "The simulated world draws by ${offscreen}")
+message(STATUS "Renderer of the simulated world: ${offscreen}")
 
 set(OFFSCREEN_LIBRARY ${${offscreen}_LIBRARY})
 set(OFFSCREEN_INCLUDE_DIR ${${offscreen}_INCLUDE_DIR})

@@ -1,4 +1,4 @@
-# src/adapters is the only folder that sees ROS; each src/mains/<name>.cpp is the main of one node.
+# src/adapters is the only folder that uses ROS. Each src/mains/<name>.cpp is the main of one node.
 
 # add_adapters(name FOLDERS folders below src/adapters DEPENDS libs...)
 function(add_adapters name)
@@ -18,14 +18,14 @@ function(add_adapters name)
 endfunction()
 
 add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions guard inputs markers navigator pose runtime DEPENDS ${PROJECT_NAME}_core)
-# Apart from what steers: OpenCV takes 14 MB in each process. Its readers of image files would take 39 MB more.
+# Separate from the nodes that steer: OpenCV takes 14 MB per process. Its image file readers would take 39 MB more.
 add_adapters(${PROJECT_NAME}_image_adapters FOLDERS images
              DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_vision JPEG::JPEG PNG::PNG)
-# Apart from what flies: the renderer's libraries would take 46 MB in each node.
+# Separate from the nodes that fly: the renderer's libraries would take 46 MB per node.
 add_adapters(${PROJECT_NAME}_world_adapters FOLDERS world DEPENDS ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_simulation)
 add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_world_adapters ${PROJECT_NAME}_evaluation)
 
-# Only the registration macros: a node that links the classes must not register plugins.
+# Holds only the registration macros: a node that links the classes must not register plugins.
 add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodelets.cpp)
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_image_adapters -Wl,-z,defs)
 
@@ -35,7 +35,7 @@ foreach(source ${node_sources})
   set(target ${PROJECT_NAME}_${node})
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${node} PREFIX "")
-  # All in one line: what a node does not call is not loaded with it.
+  # Every node links all three; --as-needed drops those that it does not call.
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_world_adapters)
   list(APPEND node_targets ${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -49,12 +49,12 @@ install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_
 install(DIRECTORY msg/migration DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/msg)
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-# Programs in Python: tools for users, and nodes. Their common modules lie beside them.
+# Python programs: tools for users, and nodes. Their common modules are installed beside them.
 file(GLOB python_programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/* ${PROJECT_SOURCE_DIR}/nodes/*.py)
 list(FILTER python_programs EXCLUDE REGEX "/(ingress_tools|__pycache__)$")
 catkin_install_python(PROGRAMS ${python_programs} scripts/ingress DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY tools/ingress_tools DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN "*.py")
-# On PATH once the workspace's setup.bash is sourced.
+# ingress is on PATH once the workspace's setup.bash is sourced.
 catkin_install_python(PROGRAMS scripts/ingress DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(FILES scripts/ingress_completion.bash DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES scripts/ingress_completion.bash DESTINATION share/bash-completion/completions RENAME ingress)

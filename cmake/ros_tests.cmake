@@ -1,15 +1,14 @@
-# ROS tests: every <name>.test of test/ros and test/faults/ros is one rostest with a master of its own; <name>_test.py is what it runs.
+# ROS tests: each <name>.test in test/ros and test/faults/ros is one rostest with its own master. It runs <name>_test.py.
 find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
 
-# Some name a driver that need not be installed, or refuse to be loaded without arguments: test/tools/launch_files_test.py
-# reads them.
+# The excluded files need an optional driver or arguments; test/tools/launch_files_test.py checks them.
 file(GLOB launch_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/launch/*.launch)
 list(FILTER launch_files EXCLUDE REGEX "(usb_cam|rehearse|mavros|px4|ardupilot).launch$")
 foreach(launch_file ${launch_files})
   roslaunch_add_file_check(${launch_file} IGNORE_UNSET_ARGS)
 endforeach()
 
-# What one_flight_test.py compares the nodes with.
+# The program that one_flight_test.py compares the nodes with.
 set(target ${PROJECT_NAME}_one_flight)
 add_executable(${target} ${PROJECT_SOURCE_DIR}/test/ros/one_flight.cpp)
 set_target_properties(${target} PROPERTIES OUTPUT_NAME one_flight PREFIX "")

@@ -1,5 +1,5 @@
-# Fuzzers, and the unit tests under the same sanitizers: dev/fuzz and dev/sanitize configure with clang, the flags and
-# WINDOW_INGRESS_SANITIZED, and build fuzz_<target>, unit_<folder>, faults. Only what a target reaches is compiled.
+# Fuzzers, and the unit tests with the same sanitizers. dev/fuzz and dev/sanitize configure with clang, sanitizer flags and
+# WINDOW_INGRESS_SANITIZED. They build fuzz_<target>, unit_<folder> and faults. Only what a target needs is compiled.
 find_package(GTest REQUIRED)
 set(fuzz_folder ${PROJECT_SOURCE_DIR}/test/fuzz)
 set(source_root ${PROJECT_SOURCE_DIR}/src)
@@ -29,7 +29,7 @@ add_sanitized_library(fuzz_world FILES ${source_root}/simulation/*.cpp LIBRARIES
 add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 
-# Of the adapters only what has no node behind it.
+# Only those adapters that need no node.
 add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
                       ${source_root}/adapters/guard/setpoint_gate.cpp ${source_root}/adapters/inputs/stamp_gate.cpp ${fuzz_folder}/any_image.cpp
                       ${source_root}/adapters/images/image_conversion.cpp ${source_root}/adapters/images/image_files.cpp

@@ -1,7 +1,7 @@
-# Unit tests: every test/unit/<folder>/*_test.cpp goes into unit_<folder>; nothing is listed by hand.
+# Unit tests: unit_<folder> is built from every *_test.cpp below test/unit/<folder>.
 find_package(GTest REQUIRED)
 
-# Larger batches and less optimization take three tenths off the time to compile the tests. The libraries are those that fly.
+# Larger batches and -O1 cut the tests' compile time by three tenths. The libraries are optimised as for flight.
 function(compile_quickly target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
@@ -28,7 +28,7 @@ foreach(folder ${unit_folders})
                                                WINDOW_INGRESS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(folder STREQUAL adapters)
     target_link_libraries(${target} ${PROJECT_NAME}_bags)
-  elseif(folder STREQUAL simulation AND with_OSMESA AND with_EGL)  # the library has one of them: both are compared
+  elseif(folder STREQUAL simulation AND with_OSMESA AND with_EGL)  # the library has one renderer; the test compares both
     target_sources(${target} PRIVATE ${OFFSCREEN_EXCLUDED})
     target_link_libraries(${target} ${OFFSCREEN_OTHER_LIBRARY})
     target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_WITH_OSMESA_AND_EGL)
@@ -44,11 +44,11 @@ if(NOT WINDOW_INGRESS_CORE_ONLY)
   add_dependencies(tests ${target})
 endif()
 
-# The rows of test/faults/rows.yaml that need no node, and what the fuzzers have found: one program.
+# One program for the rows of test/faults/rows.yaml that need no node, and for the fuzzers' findings.
 if(NOT WINDOW_INGRESS_CORE_ONLY)
   file(GLOB fault_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${PROJECT_SOURCE_DIR}/test/fuzz/*.cpp)
   list(FILTER fault_sources EXCLUDE REGEX libfuzzer_main)
-  foreach(shared invariants motion/setpoint_limiter)  # rows that the navigator's own tests show
+  foreach(shared invariants motion/setpoint_limiter)  # rows that the navigator's own tests cover
     list(APPEND fault_sources ${PROJECT_SOURCE_DIR}/test/unit/navigation/${shared}_test.cpp)
   endforeach()
   catkin_add_gtest(faults ${fault_sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)

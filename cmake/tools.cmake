@@ -6,12 +6,12 @@ foreach(source ${tool_sources})
   if(tool IN_LIST ros_tools AND WINDOW_INGRESS_CORE_ONLY)
     continue()
   endif()
-  set(target ${PROJECT_NAME}_${tool})  # a workspace has one name space for the targets of all its packages
+  set(target ${PROJECT_NAME}_${tool})  # all packages of a workspace share one target namespace
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${tool} PREFIX "")
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PRIVATE Boost::program_options yaml-cpp)
-  if(tool STREQUAL check_overlay)  # launch files call it: it goes by what flies alone
+  if(tool STREQUAL check_overlay)  # launch files call it, so it links no evaluation library
     target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_simulation)
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src/adapters/bags/bag_check.cpp)
   else()
@@ -34,7 +34,7 @@ foreach(source ${tool_sources})
 endforeach()
 
 if(NOT WINDOW_INGRESS_CORE_ONLY)
-  # What a flight through the nodes takes: scripts/demo builds no more.
+  # What a flight with nodes needs; scripts/demo builds only this.
   add_custom_target(${PROJECT_NAME}_flight)
   add_dependencies(${PROJECT_NAME}_flight ${node_targets} ${PROJECT_NAME}_nodelets ${PROJECT_NAME}_check_overlay
                    ${${PROJECT_NAME}_EXPORTED_TARGETS})

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Adds recorded images to the set of images that scripts/bench measures on; says what it leaves out, and why.
+"""Adds recorded images to the images that scripts/bench measures on. Prints what it leaves out, and why.
 
-Usage: bench_frames.py FOLDER DATA, DATA being the folder with kiosk.bag and photos/.
-Each sequence is some successive images, written lossless, and an entry of FOLDER/frames.json, see
+Usage: bench_frames.py FOLDER DATA. DATA is the folder with kiosk.bag and photos/.
+Each sequence is a few successive images, written losslessly, and an entry in FOLDER/frames.json, see
 test/benchmark/frame_set.hpp.
 """
 import csv
@@ -14,10 +14,10 @@ import cv2
 import numpy
 
 IMAGES = 8
-BAG_START_SEC = 4.0  # from here on the flight looks at its target
-MARGIN = 0.25  # of a photographed reference: round the opening, in its sides
+BAG_START_SEC = 4.0  # from here on the target is in view
+MARGIN = 0.25  # around the opening in a photographed reference [sides of the opening]
 
-# name: file below photos/images, scene of its reference
+# name: (file in photos/images, scene of its reference)
 PHOTOGRAPHS = {
     "photo_bricks": ("lmf_05june05_static_street_porter_p1010933.jpg", None),
     "photo_gate": ("arena__20160913_172511.jpg", "phone_red"),
@@ -39,7 +39,7 @@ class FrameSet:
         return file
 
     def add(self, name, kind, period_sec, images, camera=None, reference=None):
-        """`reference`: image and the eight numbers of its opening's corners."""
+        """`reference`: (image, eight coordinates of the opening's corners)."""
         entry = {"name": name, "kind": kind, "period_sec": period_sec, "camera": camera, "reference": None,
                  "images": [self.write(f"{name}_{i}", image) for i, image in enumerate(images)]}
         if reference is not None:

@@ -17,7 +17,7 @@ from window_ingress.msg import WindowDetection
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 RUN = os.path.join(ROOT, "scripts", "run")
 SEQUENCE = "plaster"
-STEADY = 300  # images before the first figure: connections, buffers
+STEADY = 300  # images before the first figure, while connections and buffers settle
 MOST_MB, MOST_GROWTH_MB = 150.0, 2.0
 DEADLINE_S = 30.0
 
@@ -31,7 +31,7 @@ def wait_for(condition, what):
     end = time.monotonic() + DEADLINE_S
     while not condition():
         if time.monotonic() > end:
-            sys.exit(f"bench_node: not within {DEADLINE_S:.0f} s: {what}")
+            sys.exit(f"bench_node: no {what} within {DEADLINE_S:.0f} s")
         time.sleep(0.02)
 
 
@@ -75,7 +75,7 @@ def set_parameters(folder):
 
 
 class Showing:
-    """Publishes images one by one, each when the one before is answered."""
+    """Publishes images one by one, each after the answer to the previous one."""
 
     def __init__(self, folder):
         entry = read_sequence(folder)
@@ -109,7 +109,7 @@ class Showing:
 def watch(folder, images, node):
     rospy.init_node("bench", anonymous=True, disable_signals=True)
     showing = Showing(folder)
-    wait_for(showing.connected, "the node subscribes")
+    wait_for(showing.connected, "subscription of the node")
     figures = {}
     for index in range(images):
         if index in (STEADY, images // 10):
@@ -132,7 +132,7 @@ def main():
 
     try:
         start("roscore", "-p", str(urlparse(os.environ["ROS_MASTER_URI"]).port))
-        wait_for(master_answers, "a master")
+        wait_for(master_answers, "master")
         set_parameters(folder)
         result = watch(folder, images, start("window_detector"))
     finally:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts what scripts/bench measured into one json file and into tables; exits 1 if a bound does not hold."""
+"""Writes the measurements of scripts/bench to a JSON file and prints tables; exits 1 if a bound does not hold."""
 import argparse
 import collections
 import glob
@@ -14,18 +14,18 @@ PEERS = {"composition": "composition", "composition_without_hough": "without Hou
          "apriltag_decimate_2": "AprilTag 3, decimate 2", "apriltag_decimate_1": "AprilTag 3, decimate 1",
          "aruco": "ArUco"}
 COMPARED = ["composition", "composition_without_hough", "apriltag_decimate_2", "aruco"]
-# Ours, peer, sequences, greatest ratio of their times. Wide: a loaded machine must not cross them. They tell when something
-# got dearer; the aims are lower, see doc/detection.md.
+# (ours, peer, sequences, largest allowed ratio of times). The bounds are wide, because a loaded machine must not break them.
+# They detect regressions; the aims are lower, see doc/detection.md.
 BOUNDS = [("track", "composition", ["plaster", "brick_wall", "flight"], 1 / 12), ("track", "composition", ["brick", "lens"], 1 / 7),
           ("search", "composition", ["brick_wall"], 1 / 2.2), ("search", "apriltag_decimate_2", ["brick_wall"], 1 / 1.6)]
 POSE_METHODS = {"ours": "ours: both solutions, spreads, aspect, attitude", "ours_size_unknown": "ours, size unknown",
                 "ippe": "solvePnP IPPE", "iterative": "solvePnP ITERATIVE", "homography": "findHomography, decomposed"}
 POSE_LIMIT_US = 150.0
-LEAST_FOLLOWED = 0.9  # part of the images: a search in every image is no track
+LEAST_FOLLOWED = 0.9  # share of the images; a search in every image is no track
 STAGES = ["preprocess", "edges", "lines", "closing", "contours", "segment_quads", "all_to_candidates",
           "appearance_of_all", "borders_of_one"]
 OF_README = ["plaster", "brick", "siding", "lens"]  # 640 x 480
-WITHOUT_TARGET = "away"  # nothing to be found, and nothing to be followed
+WITHOUT_TARGET = "away"  # sequence without a target
 ROW = re.compile(r"an image of 640 × 480 takes .*? AprilTag 3 at full size takes .*? there", re.S)
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
@@ -38,7 +38,7 @@ def load(path, otherwise):
 
 
 def read_times(folder, file="times.json"):
-    """{"subject/sequence": {"ms", "fastest_ms", "found"}}, processor time, medians over the repetitions."""
+    """{"subject/sequence": {"ms", "fastest_ms", "found"}}: processor time, median over the repetitions."""
     runs = collections.defaultdict(list)
     raw = load(os.path.join(folder, file), {"benchmarks": []})
     for run in raw["benchmarks"]:
@@ -54,7 +54,7 @@ def followed_times(times):
 
 
 def read_instructions(folder):
-    """{"subject/sequence": instructions an image}; a track that was lost is left out"""
+    """{"subject/sequence": instructions per image}, without lost tracks."""
     counted = os.path.join(folder, "callgrind", "counted.log")
     if not os.path.exists(counted):
         return {}
@@ -77,7 +77,7 @@ def is_lost(name, found):
 
 
 def ratios_of(costs):
-    """{sequence: {ours: {peer: ours over peer}}}"""
+    """{sequence: {ours: {peer: cost of ours over cost of peer}}}"""
     result = collections.defaultdict(lambda: collections.defaultdict(dict))
     for name, cost in sorted(costs.items()):
         subject, sequence = name.split("/")
@@ -209,7 +209,7 @@ def write_doc(path, lines):
     with open(path) as file:
         text = file.read()
     if text.count(BEGIN) != 1 or text.count(END) != 1:
-        refuse(f"{path}: {BEGIN} and {END} must stand in it, once each")
+        refuse(f"{path}: {BEGIN} and {END} must each appear exactly once")
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
     with open(path, "w") as file:
@@ -217,7 +217,7 @@ def write_doc(path, lines):
 
 
 def readme_row(costs):
-    """What the README says of the times {"subject/sequence": ms}."""
+    """Sentence of the README for the times {"subject/sequence": ms}."""
     def between(subject):
         of_all = [costs[f"{subject}/{sequence}"] for sequence in OF_README]
         return " to ".join(f"{ms:.0f}" if ms >= 1 else f"{ms:.1f}" for ms in (min(of_all), max(of_all))) + " ms"
@@ -231,7 +231,7 @@ def write_readme(path, costs):
     with open(path) as file:
         text = file.read()
     if len(ROW.findall(text)) != 1:
-        refuse(f"{path}: the sentence of what an image costs must stand in it, once")
+        refuse(f"{path}: the sentence on the cost of an image must appear exactly once")
     with open(path, "w") as file:
         file.write(ROW.sub(readme_row(costs), text))
 
@@ -243,10 +243,10 @@ def refuse(text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="what the measuring programs wrote")
+    parser.add_argument("folder", help="folder that the benchmarks wrote")
     parser.add_argument("--json", required=True, help="file to write")
     parser.add_argument("--doc", help="Markdown file whose tables are replaced")
-    parser.add_argument("--readme", help="Markdown file whose sentence of what an image costs is replaced")
+    parser.add_argument("--readme", help="Markdown file whose sentence on the cost of an image is replaced")
     arguments = parser.parse_args()
     folder = arguments.folder
     times, instructions = read_times(folder), read_instructions(folder)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails if any file of the ROS-free libraries includes a ROS header, however indirectly.
+"""Fails if any file of the ROS-free libraries includes a ROS header, even indirectly.
 
-On Debian the ROS headers lie in the system include path, so the compiler alone keeps nothing out: its
-dependency lists (-M, system headers included) are read instead. Usage: check_core_is_free_of_ros.py
+On Debian the ROS headers are in the system include path, so a build does not show this. The script reads
+the compiler's dependency lists (-M, with system headers). Usage: check_core_is_free_of_ros.py
 COMPILE_COMMANDS.json
 """
 import json
@@ -20,7 +20,7 @@ ROS_FREE = re.compile(r"/src/(?!adapters/|mains/|tools/)\w+/.*\.cpp$")
 
 
 def sources(entry):
-    """The files that are compiled by one command: one, or those that CMake includes in a batch."""
+    """The files that one command compiles: a single file, or those of a unity batch."""
     with open(entry["file"]) as file:
         return re.findall(r'^#include "(/.*\.cpp)"$', file.read(), re.M) or [entry["file"]]
 

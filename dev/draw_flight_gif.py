@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a simulated flight as a short animation: the image with the window that the detector found, and the path from above.
 
-    scripts/run fly --scenario FILE.yaml --seeds 20 --keep-failures --output out/fly   # FILE.yaml: with too little time, so that it is recorded
+    scripts/run fly --scenario FILE.yaml --seeds 20 --keep-failures --output out/fly   # FILE.yaml: with too short a time limit, so that it is recorded
     scripts/run replay_bag --bag out/fly/failures/flight_20.bag --output out/replay --window-size 1.2,1.0
     scripts/run draw_flight_gif.py out/fly/failures/flight_20.bag --replay out/replay --output doc/flight.gif
 
@@ -22,7 +22,7 @@ from ingress_tools.command_line import rows_of  # noqa: E402
 from ingress_tools.flight_data import STATE_COLOURS, yaw_of  # noqa: E402
 
 HEIGHT, IMAGE_WIDTH, PATH_WIDTH = 240, 320, 240  # [px]
-METRE_PX, PLANE_X = 34.0, 195  # of the path: scale, and where the window's plane is
+METRE_PX, PLANE_X = 34.0, 195  # of the path: pixels per metre, and x of the window's plane
 HALF_OPENING_M, SAME_STAMP_SEC = 0.6, 0.02
 FONT = cv2.FONT_HERSHEY_SIMPLEX
 
@@ -52,7 +52,7 @@ def read(bag_file):
 
 
 def outlines(replay):
-    """Corners of the window found, by stamp."""
+    """{stamp: corners of the detected window}"""
     return {float(row["stamp"]): np.array([[float(row[f"{axis}{i}"]) for axis in "xy"] for i in range(1, 5)])
             for row in rows_of(replay / "frames.csv") if row["detected"] == "1" and all(row[f"x{i}"] for i in range(1, 5))}
 
@@ -80,9 +80,9 @@ def path_panel(path, state, since_sec):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bag", type=pathlib.Path, help="of fly --keep-failures")
-    parser.add_argument("--replay", required=True, type=pathlib.Path, help="folder that replay_bag wrote of it")
-    parser.add_argument("--rate", type=float, default=5.0, help="images a second of the flight")
+    parser.add_argument("bag", type=pathlib.Path, help="bag of fly --keep-failures")
+    parser.add_argument("--replay", required=True, type=pathlib.Path, help="folder that replay_bag wrote for this bag")
+    parser.add_argument("--rate", type=float, default=5.0, help="images per second of the flight")
     parser.add_argument("--output", required=True, type=pathlib.Path)
     arguments = parser.parse_args()
     images, states, path = read(arguments.bag)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what the fuzzers start from: make_fuzz_seeds.py FOLDER. Small files of each kind, some of them from the package."""
+"""Writes the seed inputs of the fuzzers: make_fuzz_seeds.py FOLDER. Small files of each kind, some from the package."""
 import pathlib
 import random
 import re
@@ -15,7 +15,7 @@ def write(folder, name, data):
 
 
 def images(folder):
-    """A few headers as test/fuzz/any_image.cpp reads them; compressed images."""
+    """Raw images as test/fuzz/any_image.cpp reads them, and compressed images."""
     for encoding in range(24):
         write(folder / "image", f"raw{encoding}", struct.pack("<BHBBB", 1, encoding, 64, 32, 24) + bytes(range(256)) * 8)
     try:
@@ -35,7 +35,7 @@ def random_bytes(folder, target, sizes, count):
 
 
 def detection(folder):
-    """As test/fuzz/detection.cpp reads it: two rectangles, one within the other, on a grey image."""
+    """Inputs of test/fuzz/detection.cpp: two nested rectangles on a grey image."""
     for encoding in (0, 2, 8, 14):
         scene = struct.pack("<HHHB", encoding, 80, 60, 0)
         draw = b"\2" + struct.pack("<8b4B", 20, 15, 70, 50, 0, 0, 0, 0, 50, 140, 215, 1)

@@ -2,8 +2,8 @@
 """Writes config/*.yaml, config/WindowDetector.cfg, doc/parameters.md and the tables of doc/scenarios.md from the
 parameter structs of the headers: write_parameter_files.py [--check]
 
-Every struct lists its fields once, in `visit`, with range; default and meaning stand at the member. This copies them
-into the files that ROS reads. Run it after a change of a parameter; a unit test fails if files and structs differ.
+Each struct lists its fields and ranges in `visit`; default and meaning are at the member. Run this after a change of a
+parameter; a unit test fails if files and structs differ.
 """
 import argparse
 import re
@@ -94,7 +94,7 @@ def default_of(kind, default):
 
 
 def yaml_number(text):
-    """YAML 1.1 takes 1e-3 for a text."""
+    """YAML 1.1 reads 1e-3 as text."""
     return re.sub(r"^(-?\d+)(e)", r"\1.0\2", text)
 
 
@@ -147,7 +147,7 @@ CFG_TYPES = {"double": "double_t", "int": "int_t", "bool": "bool_t"}
 
 
 def cfg_text(kind, comment, minimum, maximum):
-    """Meaning, unit and range: what rqt_reconfigure shows of a parameter."""
+    """Meaning, unit and range, as rqt_reconfigure shows them."""
     text = comment.replace('"', "'").replace(";", ",")
     if kind == "double" and "[" not in text:
         text += " [-]"
@@ -155,7 +155,7 @@ def cfg_text(kind, comment, minimum, maximum):
 
 
 def cfg_lines(structs, struct, prefix, group):
-    """Parameters of one struct, each struct below it in a group (a tab) of its own."""
+    """Parameters of one struct. Each struct below it gets its own group (a tab)."""
     for visit in struct.visits:
         if visit[0] == "group":
             child = find(structs, struct.space, struct.members[visit[2]][0])
@@ -205,7 +205,7 @@ def doc_rows(structs, struct):
 
 
 def doc_tables(structs, kind):
-    """Section name -> rows, of every struct that a scenario file may hold."""
+    """(section name, rows) of every struct that a scenario file may hold."""
     struct = find(structs, "simulation", kind)
     for visit in struct.visits:
         if visit[0] not in ("group", "list"):
@@ -237,7 +237,7 @@ NODES = {  # node -> its struct and file
     "vehicle": ("navigation::VehicleParams", "vehicle.yaml"),
 }
 TITLES = {"vehicle": "Parameters of the vehicle, shared by all nodes, below the name 'vehicle'."}
-OWN_FILE = {"WorldNodeParams": []}  # has none: arguments of sim.launch, and the scenario
+OWN_FILE = {"WorldNodeParams": []}  # set by the arguments of sim.launch and the scenario, not by a file
 PARAMETERS_HEAD = """# Parameters
 
 Every parameter of every node, by its `rosparam` name below the node's name. The vehicle's parameters stand below `vehicle`.
@@ -249,7 +249,7 @@ be changed at run time with dynamic_reconfigure.
 
 
 def parameter_rows(structs, struct, prefix):
-    """Rows of one struct, and below them, each with its own heading, those of the structs it holds."""
+    """(rows of one struct, [(heading, meaning, rows)] of the structs that it holds)."""
     rows, inner = [], []
     for visit in struct.visits:
         if visit[0] in ("field", "choice"):
