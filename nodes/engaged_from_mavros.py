@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Node: whether the autopilot follows setpoints, as std_msgs/Bool on `engaged`, from MAVROS's state.
+"""Node: publishes whether the autopilot follows setpoints, as std_msgs/Bool on `engaged`, from the state of MAVROS.
 
-Subscribes `autopilot_state` (mavros_msgs/State: connected, armed, mode); says so once for each message, so that a silent
-autopilot is a silent topic. The message is read by the definition that comes with it: mavros_msgs need not be installed.
-Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
-default true: an autopilot that says it is in a failsafe (MAV_STATE critical and worse: low battery, lost link) is not flown.
+Subscribes `autopilot_state` (mavros_msgs/State: connected, armed, mode). Each message gives one on `engaged`, so a silent
+autopilot makes a silent topic. A message is decoded by the definition sent with it; mavros_msgs need not be installed.
+Parameter ~modes: modes in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
+default true: an autopilot in a failsafe (MAV_STATE critical or worse: low battery, lost link) counts as not engaged.
 
-Says on /diagnostics why the autopilot does not follow: silent, not connected, in a failsafe.
+Reports on /diagnostics why the autopilot does not follow: silent, not connected, in a failsafe.
 
-Publishes `companion_status` (mavros_msgs/CompanionProcessStatus) once a second, from the navigator's `state`, where mavros_msgs is
-installed and knows the component USER1: the ground station then sees this computer as stand-by, active or, without a navigator, critical.
+Publishes `companion_status` (mavros_msgs/CompanionProcessStatus) once a second, from the navigator's `state`, if mavros_msgs is
+installed and knows the component USER1. The ground station then shows this computer as stand-by, active or, if the navigator falls
+silent, critical.
 """
 import contextlib
 import functools
@@ -31,8 +32,8 @@ except ImportError:
     CompanionProcessStatus = None
 
 FIELDS = ("connected", "armed", "mode")
-LINES = 100  # that wait to be written
-MAV_STATE_CRITICAL = 5  # and above it: emergency, power off, termination
+LINES = 100  # at most this many wait to be written
+MAV_STATE_CRITICAL = 5  # higher values: emergency, power off, termination
 MAX_SILENCE_S = 2.0  # of the navigator, or the autopilot
 AT_REST = IngressState.IDLE, IngressState.PASSED, IngressState.ABORTED
 
@@ -81,7 +82,7 @@ class Relay:
             self._diagnostics.publish(message)
 
     def _say(self, log, text):
-        """Never waits for a terminal or a disk: the lines have a thread of their own, and are lost if it stands still."""
+        """Never waits for a terminal or a disk: a thread writes the lines. They are lost while it is blocked."""
         with contextlib.suppress(queue.Full):
             self._lines.put_nowait((log, text))
 
@@ -104,7 +105,7 @@ class Relay:
 
 
 class Companion:
-    """What this computer does, for MAVROS."""
+    """Tells MAVROS the state of this computer."""
     def __init__(self):
         self._state, self._heard = IngressState.IDLE, None
         self._publisher = rospy.Publisher("companion_status", CompanionProcessStatus, queue_size=1)
@@ -131,7 +132,7 @@ class Companion:
 
 def main():
     rospy.init_node("engaged_from_mavros")
-    modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])  # px4.launch and ardupilot.launch each say their own
+    modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])  # px4.launch and ardupilot.launch set their own
     if not isinstance(modes, list) or not modes or not all(isinstance(mode, str) for mode in modes):
         print(f"engaged_from_mavros: ~modes is {modes!r}; give a list of mode names, e.g. [OFFBOARD]", file=sys.stderr)
         sys.exit(2)

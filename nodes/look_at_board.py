@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Moves the simulated camera about before the chessboard of config/scenarios/chessboard.yaml, over and over: near and far, into
-all corners of the image, tilted each way, as somebody would who holds a board before a real one. For launch/board.launch."""
+"""Moves the simulated camera in front of the chessboard of config/scenarios/chessboard.yaml, as for a calibration: near, far and
+tilted views, with the board in all corners of the image, repeated until the end. For launch/board.launch."""
 import itertools
 import math
 
@@ -9,8 +9,8 @@ from nav_msgs.msg import Odometry
 
 BOARD = (5.0, 0.0, 1.5)  # its centre in odom
 RATE_HZ, LEG_S = 50.0, 0.8
-# Seen from: bearing and elevation beside the board's normal [rad], distance [m]; then where the board is in the image, to the
-# right and down [rad], and roll [rad].
+# A view: bearing and elevation from the board's normal [rad], distance [m], direction of the board in the image, right and
+# down [rad], and roll [rad].
 FAR = [(0.0, 0.0, 2.4, right, down, 0.0) for down in (-0.3, 0.0, 0.3) for right in (-0.4, 0.0, 0.4)]
 TILTED = [(bearing, elevation, 1.5, 0.3 * bearing, 0.3 * elevation, roll)
           for bearing in (-0.7, 0.0, 0.7) for elevation, roll in ((-0.4, 0.3), (0.1, 0.0), (0.6, -0.3))]
@@ -24,14 +24,14 @@ def quaternion(roll, pitch, yaw):
 
 
 def pose(bearing, elevation, distance, right, down, roll):
-    """Position, and roll, pitch, yaw."""
+    """(position, (roll, pitch, yaw))"""
     level = distance * math.cos(elevation)
     place = (BOARD[0] - level * math.cos(bearing), BOARD[1] + level * math.sin(bearing), BOARD[2] + distance * math.sin(elevation))
     return place, (roll, elevation - down, right - bearing)
 
 
 def between(a, b, part):
-    """Smoothly from one to the next."""
+    """Smooth interpolation between two views."""
     part = 0.5 - 0.5 * math.cos(math.pi * part)
     return [(1.0 - part) * x + part * y for x, y in zip(a, b)]
 

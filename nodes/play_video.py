@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Plays a video file as the images of a camera, with the calibration of the camera that took it: of rehearse.launch.
+"""Plays a video file as camera images, with the calibration of the camera that took it. Node of rehearse.launch.
 
-Begins ~wait seconds after somebody listens, publishes each image with the present time at the rate of the file, and ends with it,
-or with ~stay only when the launch does. Exit code: 0 played, 2 video or calibration cannot be used.
+Starts ~wait seconds after the first subscriber. Publishes the images at the file's rate, with the current time as stamp. Ends after
+the last image, with ~stay when the launch ends. Exit code: 0 played, 2 video or calibration cannot be used.
 """
 import os
 import sys
@@ -12,7 +12,7 @@ import rospy
 import yaml
 from sensor_msgs.msg import CameraInfo, Image
 
-USUAL_HZ = 30.0  # of a file that does not say
+USUAL_HZ = 30.0  # for a file without a rate
 USUAL_CALIBRATION = "~/.ros/camera_info/camera.yaml"
 MATRICES = {"K": "camera_matrix", "D": "distortion_coefficients", "R": "rectification_matrix", "P": "projection_matrix"}
 
@@ -22,7 +22,7 @@ class Unusable(Exception):
 
 
 def calibration(file):
-    """The camera_info that the calibrator's file says."""
+    """camera_info from the calibrator's file."""
     file = os.path.expanduser(file.replace("file://", "", 1))
     if not os.path.isfile(file):
         raise Unusable(f"calibration {file}: no such file; calibrate the camera that took the video (doc/window.md), or give calibration:=")
@@ -70,7 +70,7 @@ def play(video, info, frame):
         rospy.loginfo("the video is over; close rviz, or press Ctrl-C, to end the launch")
         rospy.spin()
     else:
-        rospy.loginfo("the video is over, so the launch ends: what roslaunch writes in red is no error")
+        rospy.loginfo("the video is over, so the launch ends: roslaunch's red lines are no error")
 
 
 def main():

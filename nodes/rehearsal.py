@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Node of rehearse.launch: stands in for vehicle and operator while somebody carries the camera. Commands nothing.
+"""Node of rehearse.launch: replaces vehicle and operator while somebody carries the camera. Commands nothing.
 
-Publishes `odom` and its tf from what `window_pose` says of single images, since a camera alone has no odometry (~odometry: false
-leaves it to others); keeps a mission of the navigator going; and says in words what the setpoints `cmd_vel` mean.
+Computes `odom` and its tf from the single-image poses in `window_pose`, because a camera alone has no odometry (~odometry: false
+if another node publishes it). Keeps a mission of the navigator running, and prints the setpoints of `cmd_vel` in words.
 """
 import math
 import os
@@ -16,13 +16,13 @@ from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 from window_ingress.msg import ImagePose, IngressState, WindowPose
 
-for folder in ("../tools", "."):  # of the sources; installed
+for folder in ("../tools", "."):  # in the sources; installed
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), folder))
 from ingress_tools.hand_odometry import HandOdometry  # noqa: E402
 from ingress_tools.transforms import quaternion_of, rotation_of, transforms_type  # noqa: E402
 
 RATE_HZ = 50.0
-PAUSE_S = 3.0      # between an end and the next start
+PAUSE_S = 3.0      # between the end of a mission and the next start
 SAY_EVERY_S = 1.0
 ENDS = IngressState.PASSED, IngressState.ABORTED
 
@@ -33,7 +33,7 @@ def candidates_of(image):
 
 
 def in_words(setpoint, heading):
-    """What the setpoint (odom axes) asks of somebody who looks where the camera looks."""
+    """The setpoint (odom axes) in words, relative to the camera's heading."""
     linear = setpoint.twist.linear
     ahead = math.cos(heading) * linear.x + math.sin(heading) * linear.y
     left = math.cos(heading) * linear.y - math.sin(heading) * linear.x
@@ -73,7 +73,7 @@ class Rehearsal:
     def _step(self):
         try:
             self._publish()
-        except rospy.ROSException:  # at the end the topics are closed before the node knows that it ends
+        except rospy.ROSException:  # at shutdown the topics close before the node knows
             self._timer.shutdown()
 
     def _publish(self):
@@ -96,7 +96,7 @@ class Rehearsal:
             each.header.stamp, each.header.frame_id = now, self._frame
         position, orientation, linear = message.pose.pose.position, message.pose.pose.orientation, message.twist.twist.linear
         position.x, position.y = place[:2]
-        position.z = place[2] + 1e-9 * (now.nsecs % 1000)  # no odometry repeats itself to the bit
+        position.z = place[2] + 1e-9 * (now.nsecs % 1000)  # real odometry never repeats exactly
         orientation.x, orientation.y, orientation.z, orientation.w = quaternion_of(rotation)
         linear.x, linear.y, linear.z = rotation.T @ velocity
         transform.transform.translation.x, transform.transform.translation.y, transform.transform.translation.z = place
@@ -105,7 +105,7 @@ class Rehearsal:
         self._tf.publish(self._transforms([transform]))
 
     def conduct(self):
-        """Once in a while: starts the mission that is not flown, and says what is wished."""
+        """Called regularly: restarts the mission when it has ended, and prints the setpoint."""
         state, now_s = self._state, rospy.get_time()
         if state is None:
             return
@@ -139,8 +139,8 @@ def main():
     rospy.init_node("rehearsal")
     rehearsal = Rehearsal()
     if not rospy.has_param("window_detector/reference/picture"):
-        rospy.logwarn("no picture of the target: whatever looks most like a window is taken for it, now this, now that; "
-                      "reference:=PICTURE reference_corners:=X1,Y1,... tell them apart")
+        rospy.logwarn("no reference image: the target is whatever looks most like a window, and may change; "
+                      "give reference:=IMAGE reference_corners:=X1,Y1,...")
     while not rospy.is_shutdown():
         rehearsal.conduct()
         rospy.rostime.wallsleep(0.5)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Starts the navigator's mission as soon as it accepts, waits for the referee, says how the flight ended.
+"""Starts the mission as soon as the navigator accepts, waits for the referee, prints how the flight ended.
 
-Where the scenario says `target_chosen` it points at the target first, as somebody in rviz does.
+If the scenario sets `target_chosen`, it first clicks on the target, as a user does in rviz.
 
-Parameter ~wait_sec, default 0: wall time before it asks the navigator, for who wants to watch the start.
+Parameter ~wait_sec, default 0: wall time before it calls the navigator, so that you can watch the start.
 Last line: [INGRESS] outcome=PASSED time_s=... offset_y_m=... offset_z_m=...; exit code 0 if PASSED, else 1.
 """
 import sys
@@ -37,7 +37,7 @@ def start(deadline):
 
 
 def choose_target(deadline):
-    """Clicks on the window where the world says that it is, until the pose node has taken it for the target."""
+    """Clicks on the window's true position until the pose node makes it the target."""
     window = rospy.wait_for_message("ground_truth/window", PoseStamped, deadline - time.monotonic())
     click = PointStamped(header=window.header, point=window.pose.position)
     chosen = threading.Event()
@@ -45,7 +45,7 @@ def choose_target(deadline):
     clicks = rospy.Publisher("clicked_point", PointStamped, queue_size=1)
     while not chosen.wait(RETRY_S):  # wall time: /clock may not run yet
         if time.monotonic() >= deadline or rospy.is_shutdown():
-            raise RuntimeError(f"the target was not seen within {READY_WITHIN_S:.0f} s: nobody could choose it")
+            raise RuntimeError(f"the target was not seen within {READY_WITHIN_S:.0f} s, so it could not be chosen")
         clicks.publish(click)
 
 

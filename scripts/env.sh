@@ -14,7 +14,7 @@ source_if_there() {
   if [ -f "$setup_file" ]; then set +u; source "$setup_file" "$@"; set -u; fi
 }
 
-# ROS names its masters by it; a bare root has no /etc/hosts.
+# ROS addresses its masters by this name; a minimal system has no /etc/hosts.
 require_localhost() {
   getent hosts localhost >/dev/null || {
     echo "localhost has no address: echo '127.0.0.1 localhost' >>/etc/hosts" >&2
@@ -22,14 +22,14 @@ require_localhost() {
   }
 }
 
-# show_usage LINES ARGUMENT: the script's head; ends with 0 where it was asked for, with 2 where something was mistyped.
+# show_usage LINES ARGUMENT: prints the script's head; exits with 0 for --help, with 2 for an unknown argument.
 show_usage() {
   [[ $2 != --help && $2 != -h ]] || { sed -n "2,$1s/^# //p" "$0"; exit 0; }
   { [ -z "$2" ] || echo "${0##*/}: unknown option '$2'"; sed -n "2,$1s/^# //p" "$0"; } >&2
   exit 2
 }
 
-# For a master of one's own.
+# A free port for a private ROS master.
 free_port() {
   /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
 }
