@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Where annotated quadrilaterals get lost: from a csv of `detect_images --candidates`, recall among the first 1, 10, 50 and
-all candidates as the search proposes them, and why the right one was not chosen.
+"""Shows where annotated quadrilaterals get lost. Reads a csv of `detect_images --candidates`, and prints recall among the
+first 1, 10, 50 and all candidates of the search, and why the right one was not chosen.
 
-A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7; an image counts once, whichever of its
-quadrilaterals was found, and rates are averaged over scenes, as in evaluate_detections.py. Labels that end in _small count
-neither for nor against.
+A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7. An image counts once, whichever of its
+quadrilaterals was found. Rates are averaged over scenes, as in evaluate_detections.py. Labels that end in _small are
+ignored.
 """
 import collections
 import os
@@ -22,7 +22,7 @@ def is_proposed(candidate):
 
 
 def fate(right):
-    """Of several candidates on the target the one that came furthest: what stopped it; `unseen` where there is none."""
+    """What stopped the candidate on the target that came furthest; `unseen` if there is none."""
     if not right:
         return "unseen"
     furthest = max(right, key=lambda c: (c["reason"] == "none", c["reason"] != "duplicate", float(c["score"]), is_proposed(c)))
@@ -30,7 +30,7 @@ def fate(right):
 
 
 def evaluate(candidates, annotations, meta, leave_out, min_iou):
-    """One record an image with a target."""
+    """One record per image with a target."""
     quads, of_image = rules.targets_of(annotations), collections.defaultdict(list)
     for row in candidates:
         of_image[os.path.basename(row["file"])].append(row)

@@ -2,11 +2,11 @@
 """Recall and precision of a csv of detect_images against annotated quadrilaterals.
 
 An image counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
-scenes, not over images. Precision: detections on images without a target, and on images whose every target is
-annotated. Labels that start with pose_only_, or end in _small, are no targets.
+scenes, not over images. Precision counts detections on images whose every target is annotated; detections on images
+without a target are false alarms. Labels that start with pose_only_, or end in _small, are no targets.
 
-The images fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
-reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
+A hash of scene and file name splits the images into two halves: tune on the half `tune`, measure what you report on the
+half `report`. Names that differ only in their last digit (neighbours in a video) are in the same half.
 """
 import collections
 import hashlib
@@ -17,7 +17,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools.command_line import Parser, fail, rows_of  # noqa: E402
 
-SAME_IOU = 0.7  # from here on the right window was found
+SAME_IOU = 0.7  # from this overlap on the right window was found
 
 
 def cross(o, a, b):
@@ -63,7 +63,7 @@ def corners(row):
 
 
 def read_judged(tool, table, options):
-    """(rows of the table, annotations, {file: its row in the list of images}); ends the program if one cannot be read."""
+    """(rows of the table, annotations, {file: its row in the list of images}); exits if one cannot be read."""
     try:
         rows, annotations, meta = map(rows_of, (table, options.annotations, options.meta))
     except OSError as error:
@@ -72,7 +72,7 @@ def read_judged(tool, table, options):
 
 
 def is_target(row):
-    """False for what is annotated for another purpose."""
+    """False for annotations with another purpose."""
     return not row["label"].startswith("pose_only_") and not row["label"].endswith("_small")
 
 
@@ -97,7 +97,7 @@ def only(records, half):
 
 
 def evaluate(detections, annotations, meta, leave_out, min_iou):
-    """One record an image: scene, tier, whether it holds a target, detected, overlap with the best target."""
+    """One record per image: scene, tier, whether it holds a target, detected, overlap with the best target."""
     quads = targets_of(annotations)
     hard = {row["file"] for row in annotations if row["label"] == "negative_hard"}
     records = []
@@ -133,7 +133,7 @@ def macro(records, key):
 
 
 def exhaustive_detections(records):
-    """Those in images whose every target is annotated."""
+    """Detections on images whose every target is annotated."""
     return [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
 
 
@@ -173,14 +173,14 @@ def print_misses(records):
 
 
 def parser_for(description, table, text):
-    """For what judges a csv by annotations."""
+    """Options of the tools that compare a csv with annotations."""
     parser = Parser(description)
     parser.add_argument(table, help=text)
     parser.add_argument("--annotations", required=True)
     parser.add_argument("--meta", required=True)
-    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
+    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image that the reference was cut from")
     parser.add_argument("--iou", type=float, default=SAME_IOU)
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only images of this half")
     parser.add_argument("--per-scene", action="store_true")
     return parser
 

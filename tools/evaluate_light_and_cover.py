@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Measures the detector on views in another light than the reference image, or partly covered.
+"""Measures the detector on views that are lit differently from the reference image, or partly covered.
 
-Takes views saved by `survey_detector --save`, draws over each of them, and runs `survey_detector --load` on the result.
-The reference image stays as it was. One seed gives the same images.
+Draws over views saved by `survey_detector --save`, and runs `survey_detector --load` on the result. The reference image
+is unchanged. The same views give the same images.
 
 shadow    one or two hard cast shadows across the window, 35 to 60 % darker, with another white balance
 overcast  less light, a colder white balance, flatter contrasts
 dusk      an eighth to a third of the light, cold, with noise
 wet       parts of the wall with a ragged edge are 25 to 45 % darker
-exposure  0.5 to 1.7 of the exposure with clipping, another tone curve
+exposure  0.5 to 1.7 times the exposure, with clipping and another tone curve
 person, plants, rope, leaf
-          something stands, grows, hangs or is hinged before the window and hides 10 to 33 % of the ring round the opening
+          an object in front of the window hides 10 to 33 % of the ring around the opening (leaf: an open shutter)
 """
 import os
 import pathlib
@@ -26,7 +26,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools import package_paths  # noqa: E402
 from ingress_tools.command_line import Parser, rows_of  # noqa: E402
 
-RING = 0.22  # width of the ring of which a part is hidden [sides of the opening]
+RING = 0.22  # width of the ring around the opening [sides of the opening]
 LEAST_HIDDEN, MOST_HIDDEN = 0.10, 0.33
 DEFAULT_TOOL = package_paths.program("survey_detector") or "survey_detector"
 CORNERS = [f"inner_{axis}{i}" for i in range(1, 5) for axis in "xy"]
@@ -37,7 +37,7 @@ def pixels(image):
 
 
 def blotches(shape, size, rng):
-    """Smooth noise, about 0, of standard deviation 1."""
+    """Smooth noise of mean 0 and standard deviation 1."""
     small = rng.standard_normal((max(2, int(shape[0] / size)) + 2, max(2, int(shape[1] / size)) + 2))
     large = cv2.resize(small, (shape[1], shape[0]), interpolation=cv2.INTER_CUBIC)
     return (large - large.mean()) / large.std()
@@ -88,7 +88,7 @@ def exposure(image, quad, rng):
 
 
 def painted(mask, image, quad, rng, hue=None):
-    """Something of one colour with folds and blotches, where the mask is."""
+    """Paints the mask in one colour, with folds and blotches."""
     colour = rng.uniform(25, 225, 3) if hue is None else np.array(hue) * rng.uniform(0.6, 1.3)
     texture = 1.0 + 0.18 * blotches(image.shape[:2], 0.1 * side_of(quad), rng)
     soft = cv2.GaussianBlur(mask.astype(np.float64), (0, 0), 0.6)[:, :, None]
@@ -144,7 +144,7 @@ def rope_mask(image, quad, rng):
 
 
 def leaf_mask(image, quad, rng):
-    """Lies on the wall beside the left or the right border, its edge near that border."""
+    """A shutter leaf on the wall, with its edge near the left or right border."""
     edge, top, bottom = rng.uniform(-0.05, 0.04), rng.uniform(-0.06, 0.02), rng.uniform(0.98, 1.06)
     polygon = [(-0.55, top), (edge, top), (edge, bottom), (-0.55, bottom)]
     return filled(image, in_plane(quad, polygon if rng.random() < 0.5 else [(1.0 - x, y) for x, y in polygon]))
@@ -183,7 +183,7 @@ def redraw(views, folder, kind):
 
 
 def counts(file):
-    """Of one frames.csv: verdicts and worst corners of the hits."""
+    """(frames, count of each verdict, worst corners of the hits) of one frames.csv."""
     rows = rows_of(file)
     verdicts = [row["verdict"] for row in rows]
     corners = sorted(float(row["worst_corner_px"]) for row in rows if row["verdict"] == "hit")
@@ -203,7 +203,7 @@ def parse():
     parser = Parser(__doc__)
     parser.add_argument("--views", required=True, type=pathlib.Path, help="folder written by survey_detector --save")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the images drawn and the tables")
-    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS), help="all, if not given")
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS), help="default: all")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program survey_detector")
     parser.add_argument("tool_arguments", nargs="*", help="after --: further options of survey_detector")
     return parser.parse_args()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs detect_images on the annotated photographs and prints the tables: without a reference; and with the reference of
+"""Runs detect_images on annotated photographs and prints tables: first without a reference, then with the reference of
 each scene that has one, on that scene and on every image without a target.
 
-Rules, and the halves `tune` and `report`, as in evaluate_detections.py. With a reference another rectangle is no target,
-so every detection that is not on an annotated one is false.
+Rules and the halves `tune` and `report` are as in evaluate_detections.py. With a reference every detection that is not on
+an annotated quadrilateral is false.
 """
 import os
 import pathlib
@@ -17,8 +17,8 @@ import evaluate_detections as rules  # noqa: E402
 from ingress_tools import package_paths  # noqa: E402
 from ingress_tools.command_line import Parser  # noqa: E402
 
-MARGIN = 0.25  # of the references `ref_with_margin`: at each side, of the target's own width or height
-CELL, COLUMNS = (280, 210), 8  # of the sheet of what went wrong [px]
+MARGIN = 0.25  # of the `ref_with_margin` images, at each side [width or height of the target]
+CELL, COLUMNS = (280, 210), 8  # of the sheet of wrong images [px]
 DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 
 
@@ -28,7 +28,7 @@ def png_size(path):
 
 
 def corners_in_reference(path):
-    """The target's corners in an image that has it in its middle, with a margin."""
+    """The target's corners in an image that shows it in the middle, with a margin."""
     sides = []
     for size in png_size(path):
         inner = size / (1.0 + 2.0 * MARGIN)
@@ -124,7 +124,7 @@ def print_with_reference(runs):
 
 
 def sheet(photographs, records, path):
-    """Every image that went wrong, annotated quadrilaterals in white, what was found in red."""
+    """Draws every wrong image: annotated quadrilaterals in white, the detection in red."""
     import cv2  # needed here only
     import numpy
 
@@ -156,13 +156,13 @@ def parse():
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the csv files")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only images of this half")
     parser.add_argument("--iou", type=float, default=rules.SAME_IOU)
     parser.add_argument("--per-scene", action="store_true")
-    parser.add_argument("--misses", action="store_true", help="list what was not found and what was found wrongly")
+    parser.add_argument("--misses", action="store_true", help="list the targets that were missed and the false detections")
     parser.add_argument("--sheets", action="store_true", help="draw those images: OUTPUT/*_wrong.png")
     parser.add_argument("--candidates", action="store_true", help="recall among all candidates, and why the right one lost")
-    parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
+    parser.add_argument("--overlay", action="store_true", help="also draw what happened to each candidate")
     parser.add_argument("tool_arguments", nargs="*", help="after --: further options of detect_images")
     return parser.parse_args()
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Finds a window of a photograph again, in a second view of it that is drawn: turned, smaller, in another light.
+"""Measures how often the detector finds a photographed window in a drawn second view: turned, smaller, in another light.
 
-For photographs of façades of which there is one view only. The reference is the window with a quarter of its size round
-it, cut from the photograph; the view is the whole photograph, up to 29 degrees beside, with noise and JPEG. What stands
-before the wall is drawn flat with it. Each reference also looks at views of four other façades, where nothing is right.
-One seed gives the same images. Rows of the table: right at IoU 0.7; its twin, another annotated window; elsewhere.
+For façades with one photograph only. The reference is the window with a margin of a quarter of its size, cut from the
+photograph. The view is the whole photograph, turned by up to 29 degrees, with noise and JPEG. Objects in front of the
+wall are drawn flat with it. Each reference is also tried on views of four other façades, where every detection is false.
+One seed gives the same images. Columns of the table: right (IoU 0.7); its twin (another annotated window); elsewhere.
 """
 import collections
 import os
@@ -20,10 +20,10 @@ import evaluate_detections as rules  # noqa: E402
 from ingress_tools import package_paths  # noqa: E402
 from ingress_tools.command_line import Parser  # noqa: E402
 
-MARGIN, LEAST_SIDE = 0.25, 50  # of a reference [sides of the window; px]
-WINDOWS = 2  # of one photograph, the largest
+MARGIN, LEAST_SIDE = 0.25, 50  # of a reference: margin [sides of the window], least side of the window [px]
+WINDOWS = 2  # of one photograph, the first that are annotated
 VIEW, FOCAL = (640, 480), 600.0
-OTHERS = (37, 71, 101, 13)  # views further on: of other façades
+OTHERS = (37, 71, 101, 13)  # steps to the views of other façades
 DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 
 
@@ -33,14 +33,14 @@ def sides(quad):
 
 
 def cut_out(image, quad):
-    """The window with its surroundings, and its corners there."""
+    """(window with its surroundings, its corners there)"""
     low = np.maximum(quad.min(0) - MARGIN * np.array(sides(quad)), 0).round().astype(int)
     high = np.minimum(quad.max(0) + MARGIN * np.array(sides(quad)), np.array(image.shape[1::-1]) - 1).round().astype(int)
     return image[low[1]:high[1] + 1, low[0]:high[0] + 1], quad - low
 
 
 def turned(quad, rng):
-    """The homography to a view of 60 to 200 pixels a side."""
+    """(homography to a view in which the window's side has 60 to 200 pixels, how much it shrinks)"""
     angles = rng.uniform([-0.2, -0.5, -0.08], [0.2, 0.5, 0.08])
     rotation = np.eye(3)
     for axis in (1, 0, 2):
@@ -60,7 +60,7 @@ def relit(image, rng):
 
 
 def drawn_view(image, quad, rng):
-    """A view, and the homography to it; nothing if it cuts the window off."""
+    """(view, homography to it); None if it cuts the window off."""
     homography, shrunk = turned(quad, rng)
     seen = cv2.perspectiveTransform(quad[None], homography)[0]
     if seen.min() < 4 or (seen.max(0) > np.array(VIEW) - 5).any():
@@ -70,7 +70,7 @@ def drawn_view(image, quad, rng):
 
 
 def draw_all(photos, folder, seed):
-    """Names of the views drawn, and for each the corners in its reference and those of all windows in the view."""
+    """{view: (corners in its reference, corners in the view, corners of the other windows there)}"""
     rng, drawn = np.random.default_rng(seed), {}
     annotated = collections.defaultdict(list)
     for row in rules.rows_of(photos / "annotations.csv"):
@@ -94,7 +94,7 @@ def draw_all(photos, folder, seed):
 
 
 def found_by(tool, folder, name, at, views, arguments):
-    """For each view the quadrilateral found, or none."""
+    """For each view the detected quadrilateral, or None."""
     table = folder / f"{name}.csv"
     command = [tool, "--output", table, "--reference", folder / f"{name}.reference.png", "--reference-corners",
                ",".join(f"{v:.2f}" for v in at.ravel()), *arguments, *(folder / f"{view}.png" for view in views)]
@@ -119,7 +119,7 @@ def main():
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with images/ and annotations.csv")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the views and what is found")
     parser.add_argument("--seed", type=int, default=20261127)
-    parser.add_argument("--tool", default=DEFAULT_TOOL, help="detect_images")
+    parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     options, arguments = parser.parse_known_args()
     if not (options.photos / "annotations.csv").exists():
         sys.exit(f"evaluate_second_views: {options.photos} has no annotations.csv")

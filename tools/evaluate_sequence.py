@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Follows the target through an annotated video and prints how long and how exactly.
+"""Tracks the target through an annotated video and prints for how long and how exactly.
 
-FOLDER/gt.csv has a row a frame: file and the target's corners x1, y1, ... x4, y4. The target is what the first frame's
-corners say: that frame is the reference. A frame is lost if nothing is found in it, or if what is found overlaps the
-target by less than an intersection over union of 0.7. Corners are compared in the cyclic order that fits best.
+FOLDER/gt.csv has one row per frame: file and the target's corners x1, y1, ... x4, y4. The first frame with its corners is
+the reference. A frame is lost if nothing is detected in it, or if the detection overlaps the target by less than an
+intersection over union of 0.7. Corners are compared in the cyclic order that fits best.
 """
 import os
 import pathlib
@@ -76,14 +76,14 @@ def report(frames, detections):
 
 def main():
     parser = Parser(__doc__)
-    parser.add_argument("folder", type=pathlib.Path, help="with gt.csv")
+    parser.add_argument("folder", type=pathlib.Path, help="folder with gt.csv")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for sequence.csv")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
-    parser.add_argument("--rate", default="15", help="images a second")
-    parser.add_argument("--single", action="store_true", help="every image by itself, for comparison")
+    parser.add_argument("--rate", default="15", help="images per second")
+    parser.add_argument("--single", action="store_true", help="search each image alone, for comparison")
     parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
-    parser.add_argument("--camera", help="calibration")
-    parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
+    parser.add_argument("--camera", help="calibration file")
+    parser.add_argument("--overlay", action="store_true", help="also draw what happened to each candidate")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     try:

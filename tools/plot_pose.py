@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws what `survey_pose --draws N` has written: how near the estimator comes to the Cramer-Rao bound, and where
-OpenCV's methods are; prints the comparison as a Markdown table.
+"""Draws the output of `survey_pose --draws N`: how near the estimator and OpenCV's methods come to the Cramer-Rao
+bound. Prints the comparison as a Markdown table.
 
-Writes pose_bound.png and pose_methods.png. --noise chooses the noise of methods and table; --doc puts the table into
+Writes pose_bound.png and pose_methods.png. --noise selects the noise of methods and table; --doc writes the table into
 FILE.md, between its marks.
 """
 import math
@@ -35,7 +35,7 @@ def values(cells, key):
 
 
 def draw_bound(cells, path):
-    """A panel for each noise: distance by yaw, each cell RMSE over bound; in grey where the sign cannot be known."""
+    """One panel per noise: distance by yaw, RMSE over bound in each cell; grey where the sign cannot be known."""
     noises, distances, yaws = (values(cells, key) for key in ("sample_sigma_px", "distance_m", "yaw_deg"))
     figure, panels = plt.subplots(1, len(noises), figsize=(3.0 * len(noises), 2.9), sharey=True, squeeze=False)
     for axes, noise in zip(panels[0], noises):
@@ -94,7 +94,7 @@ def table(cells, noise):
 def write_doc(path, lines):
     text = pathlib.Path(path).read_text()
     if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"plot_pose: {path}: {BEGIN} and {END} must stand in it, once each")
+        sys.exit(f"plot_pose: {path}: {BEGIN} and {END} must each appear exactly once")
     before, rest = text.split(BEGIN)
     pathlib.Path(path).write_text(before + BEGIN + "\n" + "\n".join(lines) + "\n" + END + rest.split(END)[1])
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what replay_bag found: usage plot_replay.py FRAMES.csv IMAGE.png"""
+"""Draws the results of replay_bag. Usage: plot_replay.py FRAMES.csv IMAGE.png"""
 import math
 import os
 import sys
@@ -18,7 +18,7 @@ def number(text):
 
 
 def read(path):
-    """Columns by name; what is empty is not a number."""
+    """{name: column}; empty fields become NaN."""
     rows = rows_of(path)
     if not rows:
         sys.exit(f"{path}: no frames in it")
@@ -71,7 +71,7 @@ def draw(data, path):
 
     single = [camera_yaw(*q) for q in zip(data["qx"], data["qy"], data["qz"], data["qw"])]
     sigmas = [math.degrees(s) for s in data["yaw_sigma_rad"]]
-    if any(map(math.isfinite, sigmas)):  # matplotlib wants one at least
+    if any(map(math.isfinite, sigmas)):  # matplotlib needs at least one
         heading.errorbar(time, single, sigmas, fmt=".", label="image, to camera")
     if "truth_yaw_rad" in data:
         heading.plot(time, [math.degrees(y) for y in data["truth_yaw_rad"]], "k", linewidth=0.8, label="truth")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes report.html from what replay_bag left in a folder: usage report_replay.py FOLDER
+"""Writes report.html from the output folder of replay_bag. Usage: report_replay.py FOLDER
 
-One page that opens from disk: no network, no scripts, drawings inside it, the images beside it in pictures/.
+The page opens from disk, without network or scripts. Charts are inside it, the images beside it in pictures/.
 """
 import json
 import math
@@ -33,7 +33,7 @@ MEANING = {  # of the reasons, as in doc/detection.md
     "area_small": "smaller than the farthest window",
     "area_large": "larger than the nearest window",
     "aspect": "too wide or too narrow",
-    "solidity": "an outline much smaller than its hull: dented, not a window",
+    "solidity": "an outline much smaller than its convex hull",
     "angle": "a corner too far from a right angle",
     "border": "cut by the border of the image: a corner is not seen",
     "line_support": "a side without straight edges under it",
@@ -45,17 +45,17 @@ MEANING = {  # of the reasons, as in doc/detection.md
     "appearance": "its frame does not look like the reference",
     "other_aspect": "of another aspect than the reference",
     "other_frame": "its frame is wider or narrower than the reference's",
-    "unlike": "what lies round it is not what lies round the reference's opening",
+    "unlike": "its surroundings do not match the reference's",
     "score": "score below the limit",
-    "outscored": "a fair window, but another one is better",
+    "outscored": "a plausible window, but another one is better",
     "budget": "not looked at: too many candidates in one image",
     "pose_bad_camera": "the calibration cannot be used",
     "pose_bad_corners": "the corners are no window seen from the front",
     "pose_not_in_front": "the window would lie behind the camera",
     "pose_reprojection": "no pose of this window fits the corners",
     "pose_range": "nearer or further than a window may be",
-    "pose_tilt": "the window would hang crooked: its up is not gravity's",
-    "pose_not_finite": "the numbers got out of hand",
+    "pose_tilt": "the window would be tilted against gravity",
+    "pose_not_finite": "the pose is not finite",
 }
 
 
@@ -109,7 +109,7 @@ def cards(replay):
     all_cards = [("window found", share(found, images), found == 0),
                  ("pose from one image", share(posed, images) if size else "no size given", not posed),
                  ("filtered, sign known", share(trusted, images) if size else "no size given", not trusted),
-                 ("an image takes", f"{quantile(replay.milliseconds, 0.5):.2f} ms, 95 %: {quantile(replay.milliseconds, 0.95):.2f} ms", False),
+                 ("time per image", f"{quantile(replay.milliseconds, 0.5):.2f} ms, 95 %: {quantile(replay.milliseconds, 0.95):.2f} ms", False),
                  ("without calibration", counts["without_calibration"], counts["without_calibration"]),
                  ("without odometry", counts["without_odometry"], counts["without_odometry"]),
                  ("without attitude", counts["without_attitude"], counts["without_attitude"]),
@@ -140,7 +140,7 @@ def columns_chart(title, table, *columns, factor=1.0):
 
 angles_chart = columns_chart("the paper's angles [deg]", "details", ("theta", "theta_rad", "#1f5fa8"), ("phi", "phi_rad", "#e67e22"),
                              ("psi", "psi_rad", "#2e9e4f"), factor=180 / math.pi)
-width_chart = columns_chart("opening as wide and as high as seen [m]", "details", ("width", "opening_width_m", "#1f5fa8"),
+width_chart = columns_chart("apparent width and height of the opening [m]", "details", ("width", "opening_width_m", "#1f5fa8"),
                             ("height", "opening_height_m", "#e67e22"))
 sides_chart = columns_chart("length of the borders [px]", "details", ("left", "left_side_px", "#8c6d31"),
                             ("right", "right_side_px", "#5b7c99"))
@@ -230,7 +230,7 @@ def page(replay):
                      strip(replay))]
     parts += [section(title, *(chart(replay) for chart in some)) for title, some in charts]
     parts.append(section("Images without a window or a pose, and why", 
-                         '<p class="note">The furthest that a candidate of the image came.</p>',
+                         '<p class="note">The reason of the candidate that came furthest.</p>',
                          bars(counted([row["reject_reason"] for row in replay.frames]))))
     if with_pose:
         parts.append(section("Images that did not contribute to the filtered pose, and why",

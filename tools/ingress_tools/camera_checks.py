@@ -1,7 +1,7 @@
-"""Whether the camera is calibrated, and where it sits: a part of doctor."""
+"""Part of doctor: calibration and mounting of the camera."""
 from ingress_tools.remedies import remedy
 
-LOOKS_FORWARD = 0.7  # least part of an axis: some 45 degrees
+LOOKS_FORWARD = 0.7  # least component of an axis, about 45 degrees
 BESIDE_BODY_M = 0.02
 
 
@@ -22,8 +22,8 @@ def check_calibration(system, report):
 
 def check_mounting(system, report):
     for frame, senders in system.transforms.contradictions().items():
-        report.error(f"tf: where {frame} is, {' and '.join(senders)} say differently: now the one counts, now the other",
-                     "let one of them say it: no camera_pose:= where another says it, one source of odometry in tf")
+        report.error(f"tf: {' and '.join(senders)} send different transforms of {frame}, and the latest counts",
+                     "let only one of them send it: no camera_pose:= beside another source, one source of odometry in tf")
     info = system.infos.get(system.input("homography_pose", "sensor_msgs/CameraInfo"))
     base = system.parameter("vehicle", "base_frame", "base_link")
     if not info:
@@ -35,7 +35,7 @@ def check_mounting(system, report):
         return
     if T_base_camera is None:
         known = ", ".join(system.transforms.frames()) or "none"
-        report.error(f"tf: no way from {base} to {camera}; frames there are: {known}", remedy("not in tf").replace("FRAME_OF_THE_IMAGES", camera),
+        report.error(f"tf: no transform from {base} to {camera}; known frames: {known}", remedy("not in tf").replace("FRAME_OF_THE_IMAGES", camera),
                      [camera])
         return
     forward, down = T_base_camera[:3, 2], T_base_camera[:3, 1]

@@ -9,11 +9,11 @@ GIVE = "give a folder or flights.csv that 'fly --output' has written"
 
 
 class DataError(ValueError):
-    """What is wrong with which file, and what to do: one line."""
+    """One line: the file, what is wrong with it, and what to do."""
 
 
 def table_of(file, give):
-    """Its rows, and the names of its columns; raises DataError, which ends in what to give in its place."""
+    """(rows, names of the columns) of a csv file; raises DataError, which ends with `give`."""
     try:
         with open(file, newline="", encoding="utf-8") as stream:
             reader = csv.DictReader(stream, strict=True)
@@ -30,7 +30,7 @@ def need_columns(file, needed, there, give):
 
 
 def read_flights(place, columns):
-    """Rows of one flights.csv, or of the one in a folder; NUMBERS as floats, NaN where there was none."""
+    """Rows of one flights.csv, or of the one in a folder; NUMBERS as floats, NaN if empty."""
     file = os.path.join(place, "flights.csv") if os.path.isdir(place) else place
     rows, there = table_of(file, GIVE)
     need_columns(file, columns, there, GIVE)
@@ -55,7 +55,7 @@ def miss_of(row):
 
 
 def wilson95(successes, trials):
-    """Score interval of a rate; of nothing at all it is 0 to 1."""
+    """Score interval of a rate; 0 to 1 without trials."""
     if trials == 0:
         return 0.0, 1.0
     z = 1.96

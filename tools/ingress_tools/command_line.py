@@ -1,4 +1,4 @@
-"""What the tools in Python share: wrong usage is one line on stderr, and exit code 2."""
+"""Common to the Python tools: wrong usage gives one line on stderr and exit code 2."""
 import argparse
 import csv
 import os
@@ -13,7 +13,7 @@ class Parser(argparse.ArgumentParser):
         fail(2, f"{self.prog}: {message}; see --help")
 
     def parse_args(self, *words):
-        """Refuses an --output that is one of the files that are read: it would be lost."""
+        """Refuses an --output that is also an input file, which would be lost."""
         arguments = super().parse_args(*words)
         output = getattr(arguments, "output", None)
         for name, value in vars(arguments).items():
@@ -25,7 +25,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def say_in_a_line(kind, error, trace):
-    """A file that cannot be read or written is the user's affair, not a fault of the tool."""
+    """Reports a file that cannot be read or written in one line, without a traceback."""
     if issubclass(kind, OSError):
         print(f"{os.path.basename(sys.argv[0])}: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
     elif not issubclass(kind, KeyboardInterrupt):
@@ -51,6 +51,6 @@ def refuse_to_replace(parser, files, overwrite):
 
 
 def rows_of(file):
-    """Rows of a csv table, each by the names of its columns; all text."""
+    """Rows of a csv table, as dicts of text."""
     with open(file, newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))

@@ -1,9 +1,9 @@
-"""What doctor found: causes, each with what follows from it and what mends it."""
+"""Findings of doctor: causes, each with its consequences and its remedy."""
 import os
 
 
 def as_run(text, launch=None):
-    """A mend as who runs doctor has to type it: by scripts/run as they called it, else in a sourced workspace."""
+    """A remedy as the user has to type it: with scripts/run as they called it, else in a sourced workspace."""
     if launch:
         text = text.replace("ingress.launch", launch)
     run = os.environ.get("WINDOW_INGRESS_RUN", "")
@@ -11,8 +11,8 @@ def as_run(text, launch=None):
 
 
 class Finding:
-    """Something that is wrong. `stage` is that of the first node of the pipeline that suffers from it; a symptom has its cause
-    before that, if anything is wrong there."""
+    """Something that is wrong. `stage` is the first stage of the pipeline that suffers from it. A symptom has its cause at or
+    before that stage, if an error is there."""
 
     def __init__(self, level, text, mend, stage=0, symptom=False):
         self.level, self.text, self.mend, self.stage, self.symptom = level, text, mend, stage, symptom
@@ -20,12 +20,12 @@ class Finding:
 
 
 class Report:
-    """Findings: those that are causes, in the order of the pipeline, each with what follows from it."""
+    """Collects findings; prints causes in the order of the pipeline, each with its consequences."""
 
     def __init__(self):
         self.findings = []
-        self.named = set()  # topics and nodes that something was said about
-        self.launch = None  # the file that was launched, where that can be told
+        self.named = set()  # topics and nodes that findings are about
+        self.launch = None  # the launch file, if known
 
     def ok(self, text):
         print(f"OK     {text}", flush=True)
@@ -41,7 +41,7 @@ class Report:
         self.findings.append(Finding(level, text, mend, **place))
 
     def causes(self):
-        """Those with what follows from them; a symptom without anything wrong before it is a cause, too."""
+        """Causes with their consequences. A symptom without an error before it is a cause, too."""
         ordered = sorted(self.findings, key=lambda finding: (finding.level != "ERROR", finding.stage, finding.symptom))
         causes = []
         for finding in ordered:
@@ -53,7 +53,7 @@ class Report:
         return causes
 
     def say(self):
-        """\return how many there are"""
+        """Prints all findings. \return the number of causes"""
         causes = self.causes()
         for cause in causes:
             print(f"{cause.level:5s}  {cause.text}\n       mend: {as_run(cause.mend, self.launch)}", flush=True)

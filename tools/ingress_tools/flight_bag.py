@@ -1,4 +1,4 @@
-"""A flight from a bag: of the simulated world with its truth, or of a real flight without. See flight_data.py."""
+"""Reads a flight from a bag: a simulated one with its truth, or a real one without. See flight_data.py."""
 import math
 
 import numpy as np
@@ -27,7 +27,7 @@ def read_bag(file, topics):
 
 
 def choose(file, info, asked):
-    """Name of the topic for each of KINDS, None where the bag holds none."""
+    """{kind: topic} for each of KINDS; None where the bag holds none."""
     chosen = {}
     for name, kind in KINDS.items():
         own = asked.get(name)
@@ -52,7 +52,7 @@ def only_one(file, name, topics):
 
 
 def flight_of(file, messages, chosen):
-    messages["state"] = [m for m in messages["state"] if stamp(m) > 0]  # before /clock runs there is no time
+    messages["state"] = [m for m in messages["state"] if stamp(m) > 0]  # messages before /clock runs have no time
     if not messages["state"]:
         raise DataError(f"{file}: no {KINDS['state']} in it; was the navigator running, and /state recorded?")
     if messages["pose"] and not hasattr(messages["pose"][0], "image"):
@@ -76,7 +76,7 @@ def flight_of(file, messages, chosen):
 
 
 def trusted_window(file, poses):
-    """Where the window was, by the last filtered pose that knew its normal."""
+    """The window's pose by the last trusted estimate."""
     good = [m for m in poses if m.filtered.valid and m.filtered.sign_trusted]
     if not good:
         raise DataError(f"{file}: neither ground_truth/odom and ground_truth/window nor a trusted pose of the window; "
@@ -89,7 +89,7 @@ def stamp(message):
 
 
 def start_of(states, verdicts):
-    """As the referee has it, if there is one: a recorder that came late has missed the first states."""
+    """The referee's start, if there is one: a late recorder misses the first states."""
     told = next((stamp(m) - m.time for m in verdicts if m.time > 0 and not m.crossed), None)
     return told or next((stamp(m) for m in states if m.state_name != "IDLE"), stamp(states[0]))
 
@@ -113,7 +113,7 @@ def image_row(message, begin):
 
 
 def filtered_angle(poses, odometry, begin):
-    """Times, and the window's axis against the vehicle's heading by the filter, where it has a pose."""
+    """(times, filtered angle of the window's axis against the vehicle's heading), where the filter has a pose."""
     known = [m for m in poses if m.filtered.valid]
     times = np.array([stamp(m) for m in known])
     if len(times) == 0:

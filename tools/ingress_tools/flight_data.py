@@ -24,7 +24,7 @@ def yaw_of(q):
 
 
 class Images:
-    """What each image alone said of the window: time, yaw [rad], trusted, width [m], height [m], left and right [px]."""
+    """Estimates from each single image: time, yaw [rad], trusted, width [m], height [m], left and right [px]."""
 
     NAMES = ("time", "yaw", "trusted", "width", "height", "left", "right")
 
@@ -41,11 +41,11 @@ class Images:
 class Flight:
     """Times are seconds since the start of the mission.
 
-    file, is_truth: the position is the truth, else what odometry says beside the last trusted pose of the window.
+    file. is_truth: positions are the truth, else odometry relative to the last trusted pose of the window.
     time, x, y, z, heading, speed: of the vehicle, arrays; heading against the window's axis [rad].
     states: (time, name) of each step. images: see Images. filtered: (times, relative angle by the filter [rad]).
     predicted_miss: three sigma at the last commit [m], or None. window_size: (width, height) [m], or None.
-    reason: of the last state. verdict: of the simulated world's referee, or nothing.
+    reason: of the last state. verdict: of the simulated world's referee, or empty.
     """
 
     def __init__(self, file, motion, states, images, filtered=((), ())):
@@ -62,7 +62,7 @@ class Flight:
         return np.interp(times, self.time, values)
 
     def knows(self, times, slack=0.05):
-        """Where it was at these times: whether the positions reach so far."""
+        """Whether positions are recorded for these times."""
         return (times >= self.time[0] - slack) & (times <= self.time[-1] + slack)
 
     def spans(self):
@@ -88,7 +88,7 @@ class Flight:
         return tuple(column[i] + share * (column[i + 1] - column[i]) for column in (self.time, self.y, self.z))
 
     def cut(self, begin, end):
-        """Only what lies between two times [s]."""
+        """Keeps only what lies between two times [s]."""
         keep = (self.time >= begin) & (self.time <= end)
         if keep.sum() < 2:
             raise DataError(f"{self.file}: fewer than two positions between {begin:g} and {end:g} s; it holds "
@@ -104,7 +104,7 @@ class Flight:
 
 
 def read_flight(file, topics=None):
-    """By its ending: a bag, else a log. Raises DataError."""
+    """Reads a bag or, with another ending, a log. Raises DataError."""
     if os.path.isdir(file):
         raise DataError(f"{file}: is a folder; give one flight_N.csv or one bag in it")
     if not os.path.isfile(file):

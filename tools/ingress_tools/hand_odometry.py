@@ -1,16 +1,16 @@
-"""Odometry of a camera that is carried by hand before a window: from the window itself, which stands still. Without ROS."""
+"""Odometry of a hand-carried camera, from the poses of a window, which stands still. Without ROS."""
 import numpy
 
 from .transforms import matrix_of
 
-HEIGHT_M = 1.5              # where it begins, above the ground of its frame
-TURN_TIME_S = 0.4           # over which the turn against the window is averaged: from one image it is the least certain
-PLACE_TIME_S = 0.1          # likewise the window's place in the image and its distance
+HEIGHT_M = 1.5              # initial height in odom
+TURN_TIME_S = 0.4           # averaging time of the rotation, which is least certain from one image
+PLACE_TIME_S = 0.1          # averaging time of the window's position relative to the body
 VELOCITY_TIME_S = 0.25
-LONGEST_GUESS_S = 0.15      # without an image the movement is taken to go on for so long
+LONGEST_GUESS_S = 0.15      # without an image the motion is extrapolated for this many seconds
 FORGOTTEN_AFTER_S = 1.0
-MOST_MPS = 3.0              # no hand carries a camera faster: another window is taken for the one before
-MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] of one image; to take the mirrored solution in place of the one followed
+MOST_MPS = 3.0              # no hand carries a camera faster: more means that another window was detected
+MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] limit for one image; sum at which the mirrored solution replaces the one followed
 # Axes of the camera (x right, y down, z ahead) in those of the body (x ahead, y left, z up).
 R_BODY_CAMERA = numpy.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 
@@ -25,7 +25,7 @@ def angle_between(a, b):
 
 
 class HandOdometry:
-    """The window is set up in odom, upright, when it is first seen; from then on it says where the camera is."""
+    """Puts the window upright into odom when it is first seen; from then on computes the camera's pose from it."""
 
     def __init__(self):
         self.place, self.velocity = numpy.array([0.0, 0.0, HEIGHT_M]), numpy.zeros(3)
@@ -36,7 +36,7 @@ class HandOdometry:
         self._doubt = 0.0  # evidence for the mirrored one [nats]
 
     def see(self, stamp_s, candidates, evidence=0.0):
-        """An image: what explains it, [(rotation, place)] of the window in the camera, the likelier first, by so many nats."""
+        """An image. candidates: [(rotation, place)] of the window in the camera, the likelier first; evidence: by how many nats."""
         candidates = [(R_BODY_CAMERA @ rotation, R_BODY_CAMERA @ place) for rotation, place in candidates]
         dt = None if self._seen_s is None else stamp_s - self._seen_s
         if dt is None or not 0.0 < dt < FORGOTTEN_AFTER_S:
@@ -61,7 +61,7 @@ class HandOdometry:
         self.place, self.rotation = place, rotation
 
     def _is_mirrored(self, candidates, evidence):
-        """That the solution followed is not the likelier one, image after image."""
+        """Whether the followed solution has been the less likely one over enough images."""
         follows_likelier = angle_between(candidates[0][0], self._turn) <= angle_between(candidates[-1][0], self._turn)
         step = min(evidence, MOST_EVIDENCE)
         self._doubt = max(0.0, self._doubt - step) if follows_likelier else self._doubt + step
@@ -79,7 +79,7 @@ class HandOdometry:
         return self._seen_s is not None and now_s - self._seen_s <= LONGEST_GUESS_S
 
     def carry(self, velocity, dt_s):
-        """Out of sight of the window, as if the setpoint were followed."""
+        """Moves by the setpoint while the window is out of sight."""
         self.velocity = numpy.asarray(velocity, float)
         self.place = self.place + dt_s * self.velocity
 

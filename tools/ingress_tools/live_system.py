@@ -1,4 +1,4 @@
-"""What doctor asks a running ROS system: master, nodes, topics and what passes on them. Nothing here waits for ROS time."""
+"""What doctor reads from a running ROS system: master, nodes, topics and messages. Nothing here waits for ROS time."""
 import os
 import socket
 import struct
@@ -28,7 +28,7 @@ def master():
 
 
 class Patience(xmlrpc.client.Transport):
-    """Waits no longer than that for an answer: rospy.init_node makes a minute of the sockets' default."""
+    """Waits at most PATIENCE_S for an answer: rospy.init_node sets the sockets' default to a minute."""
 
     def make_connection(self, host):
         connection = super().make_connection(host)
@@ -37,14 +37,14 @@ class Patience(xmlrpc.client.Transport):
 
 
 class Graph:
-    """Who is registered, and what with."""
+    """The registered nodes with their topics and services."""
 
     def __init__(self, master_):
         publishers, subscribers, services = master_.getSystemState()
         self.publishers, self.subscribers, self.services = dict(publishers), dict(subscribers), dict(services)
         self.types = dict(master_.getTopicTypes())
         self._master = master_
-        self._silent = set()  # nodes that did not answer: asked again, each would take as long again
+        self._silent = set()  # nodes that did not answer, not asked again: each would take as long
 
     def nodes(self):
         return sorted({node for table in (self.publishers, self.subscribers, self.services) for nodes in table.values()
@@ -54,7 +54,7 @@ class Graph:
         return self._ask(node, "getPid") is not None
 
     def subscriptions(self, node):
-        """{topic: type} as the node itself says; the master knows only one type a topic."""
+        """{topic: type} as the node itself reports; the master knows only one type per topic."""
         return dict(self._ask(node, "getSubscriptions") or [])
 
     def publications(self, node):
@@ -76,7 +76,7 @@ class Graph:
 
 
 class Sample:
-    """What passed on a topic, of whatever type; stamps are read from the bytes of those that begin with a header."""
+    """Messages of any type on a topic; stamps are read from the bytes of those that begin with a header."""
 
     def __init__(self, topic, stamped=True):
         self.times, self.stamps, self.ages, self.last, self.type = [], [], [], None, None
@@ -95,12 +95,12 @@ class Sample:
         self._subscriber.unregister()
 
     def rate_hz(self):
-        """By the stamps, so that simulated time may run at any speed; by arrival where they do not go on."""
+        """Rate by the stamps, so that simulated time may run at any speed; by arrival if the stamps do not advance."""
         moments = self.stamps if len(self.stamps) > 1 and self.stamps[-1] > self.stamps[0] else self.times
         return self._rate(moments)
 
     def arrival_hz(self):
-        """By the clock on the wall."""
+        """Rate by wall time."""
         return self._rate(self.times)
 
     @staticmethod
@@ -108,8 +108,8 @@ class Sample:
         return (len(moments) - 1) / max(1e-6, moments[-1] - moments[0]) if len(moments) > 1 else 0.0
 
     def message(self, kind):
-        """The last one, or None, also if it is of another type. rospy gives all subscribers of a topic what the first of them
-        asked for: bytes."""
+        """The last message; None if there is none, or of another type. rospy gives all subscribers of a topic the form that the
+        first one asked for: bytes."""
         if self.type != kind._type:
             return None
         message = kind()
@@ -117,7 +117,7 @@ class Sample:
         return message
 
     def age_s(self):
-        """Median, seconds; None if nothing came."""
+        """Median age [s]; None without messages."""
         return sorted(self.ages)[len(self.ages) // 2] if self.ages else None
 
     def image_size(self):
@@ -174,7 +174,7 @@ class Transforms:
         return chain  # ancestor -> T_ancestor_frame
 
     def contradictions(self):
-        """{frame: its senders} of frames that are said to be at two places, or to hang on two others."""
+        """{frame: its senders} of frames that are sent with different transforms or parents."""
         def differ(said):
             (parent, T), *others = said.values()
             return any(other != parent or not numpy.allclose(T, T_other, atol=1e-3) for other, T_other in others)

@@ -1,4 +1,4 @@
-"""A live system as doctor saw it while it listened: its nodes, what they read, what came, what they said."""
+"""A live system as doctor observed it: its nodes, their inputs, the messages, the diagnostics."""
 import time
 
 import rospy
@@ -10,11 +10,11 @@ from ingress_tools import live_system
 
 NODES = {"window_detector": "detector.yaml", "homography_pose": "pose.yaml", "ingress_navigator": "navigator.yaml",
          "setpoint_guard": "guard.yaml"}
-# From the camera to the autopilot: who comes later lives by what those before it publish.
+# From the camera to the autopilot: later nodes depend on the output of earlier ones.
 PIPELINE = "world", "window_detector", "homography_pose", "engaged_from_mavros", "ingress_navigator", "setpoint_guard"
 ARGUMENTS = {"sensor_msgs/Image": "image", "sensor_msgs/CompressedImage": "image_transport:=compressed image",
              "sensor_msgs/CameraInfo": "camera_info", "sensor_msgs/Imu": "imu", "nav_msgs/Odometry": "odom"}
-WANTED = "window_detector", "homography_pose"  # whatever is launched
+WANTED = "window_detector", "homography_pose"  # in every launch
 SETPOINTS = "geometry_msgs/TwistStamped"
 
 
@@ -23,7 +23,7 @@ def stage_of(node):
 
 
 class System:
-    """What was seen while listening."""
+    """All that was observed while listening."""
 
     def __init__(self, master, seconds):
         self.graph = live_system.Graph(master)
@@ -58,7 +58,7 @@ class System:
         return next((topic for topic, kind in outputs.items() if kind == "window_ingress/IngressState"), "/state")
 
     def knows_mounting(self):
-        """Whether the pose node, to which corners come, has the camera's transform: those of a bag are sent once."""
+        """Whether the pose node receives corners and has the camera's transform, which a bag sends only once."""
         said = {name.rsplit("/", 1)[-1]: status.level for name, status in self.said.items()}
         return said.get("homography_pose: camera mounting") == said.get("homography_pose: window") == 0
 
@@ -66,13 +66,13 @@ class System:
         return next((topic for topic, kind in self.inputs.get(name, {}).items() if kind in kinds), None)
 
     def namespace_of(self, name):
-        """Where the parameters of a node stand; those of the vehicle stand beside the navigator's."""
+        """Namespace of a node's parameters; the vehicle's are beside the navigator's."""
         if name == "vehicle":
             return self.namespace_of("ingress_navigator").rsplit("/", 1)[0] + "/vehicle"
         return self.nodes.get(name, "/" + name)
 
     def is_launched(self, name):
-        """Whether a launch file wanted this node: ingress.launch loads the parameters of those that it starts."""
+        """Whether a launch file starts this node: ingress.launch loads the parameters of the nodes that it starts."""
         beside = next((node for other, node in self.alive.items() if other in WANTED), None)
         if name in WANTED or beside is None or "ingress_navigator" in self.alive:
             return True

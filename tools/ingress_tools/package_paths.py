@@ -1,11 +1,11 @@
-"""Where tools and files of the package lie: in a clone, in a catkin workspace, installed."""
+"""Finds tools and files of the package: in a clone, in a catkin workspace, or installed."""
 import os
 import pathlib
 import sys
 
 TOOLS = pathlib.Path(__file__).resolve().parents[1]
 ROOT = TOOLS.parent
-RUN = ROOT / "scripts" / "run"  # only beside the sources
+RUN = ROOT / "scripts" / "run"  # only in a clone
 PACKAGE = "window_ingress"
 
 
@@ -19,8 +19,8 @@ def share():
 
 
 def folders():
-    """Where programs lie, the nearest first."""
-    called = pathlib.Path(os.path.abspath(sys.argv[0])).parent  # a workspace's devel space calls a script by a relay
+    """Folders with programs, the nearest first."""
+    called = pathlib.Path(os.path.abspath(sys.argv[0])).parent  # a devel space calls scripts through a relay
     yield from (called, called.parent / "lib" / PACKAGE)
     if is_clone():
         yield from (ROOT / "build/ros/devel/lib" / PACKAGE, ROOT / "build/core")
@@ -39,7 +39,7 @@ def program(name):
 
 
 def command(name):
-    """The words that run a tool or script: in a clone by scripts/run, which sets up the environment of its own build."""
+    """The command that runs a tool or script: in a clone with scripts/run, which sets up the environment of its build."""
     file = program(name)
     if file is None:
         raise FileNotFoundError(f"'{name}' is not built" if is_clone() else f"'{name}' is not installed")

@@ -1,4 +1,4 @@
-"""Whether parameters on the server are known to their nodes, are numbers, and fit together."""
+"""Part of doctor: parameters on the server are known to their nodes, are numbers, and fit together."""
 import pathlib
 
 import rospkg
@@ -21,7 +21,7 @@ def config_folder():
 
 
 def number(system, report, name, path):
-    """A parameter, or None if it is not set, or is no number, which is said."""
+    """A parameter; None if it is not set, or not a number, which is reported."""
     value = system.parameter(name, path)
     if value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
@@ -45,7 +45,7 @@ def check_parameters(system, report):
     speed = number(system, report, "ingress_navigator", "navigator/limits/speed_mps")
     fastest = number(system, report, "setpoint_guard", "max_speed_mps")
     if speed and fastest and speed > fastest:
-        report.error(f"setpoint_guard refuses more than {fastest} m/s, ingress_navigator flies up to {speed} m/s: that becomes zero",
+        report.error(f"setpoint_guard refuses more than {fastest} m/s, ingress_navigator flies up to {speed} m/s: the guard sends zero instead",
                      f"raise setpoint_guard/max_speed_mps above {speed} in your config, or lower navigator/limits/speed_mps")
     check_sizes(system, report)
 

@@ -1,17 +1,17 @@
-"""Pictures by matplotlib, where no display is needed."""
+"""Matplotlib without a display."""
 import os
 import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402, F401  (the backend must be chosen first; used by those who draw)
+import matplotlib.pyplot as plt  # noqa: E402, F401  (the backend must be chosen first; the plot tools import it)
 
 from .command_line import fail  # noqa: E402
 
 
 def save(tool, figure, file):
-    """Writes the picture, and its folder if it is missing; ends the program with code 1 if that cannot be done."""
+    """Writes the picture, and its folder if it is missing; exits with code 1 if that fails."""
     try:
         os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
         figure.savefig(file, dpi=80)

@@ -1,14 +1,14 @@
-"""What mends what nodes say in /diagnostics, and topics that are missing. What mends a check's own finding stands with the check."""
+"""Remedies for messages in /diagnostics and for missing topics. Remedies for a check's own findings are in the check."""
 import re
 
 from ingress_tools.observed_system import ARGUMENTS, NODES
 
 LAUNCH = "scripts/run roslaunch window_ingress ingress.launch"
-AGAIN = "end ingress.launch and start it as before, but with"  # a second one beside it is refused
+AGAIN = "end ingress.launch and start it as before, but with"  # a second launch beside it is refused
 WRONG_SIZE = (f"measure the opening's inner width and height, {AGAIN} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
               "if it is another window that is seen: doc/window.md, 'Make a reference image'")
 IMAGES = {"sensor_msgs/Image": ("image_transport:=raw ", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
-# What a node says -> what to do about it; the first that fits.
+# (words of a message, what to do about it); the first match counts.
 REMEDIES = (
     ("use_sim_time is set but nothing", "scripts/run rosparam set use_sim_time false, and start the nodes again (a bag: rosbag play --clock)"),
     ("is use_sim_time set", "scripts/run rosparam set use_sim_time false, and start the nodes again"),
@@ -51,7 +51,7 @@ def remedy(text):
 
 
 def another_topic(system, topic, kind):
-    """How to give a node another topic, one that is not our own."""
+    """How to give a node another topic of this type that is not one of ours."""
     def topics_of_type(wanted):
         return [name for name in system.graph.topics_of_type(wanted)
                 if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name]) and not name.startswith("/ground_truth/")]

@@ -1,9 +1,9 @@
-"""Charts over time as svg text, for pages that stand alone."""
+"""Charts over time as svg text, for self-contained pages."""
 import math
 from html import escape
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 1000, 230, 56, 10, 26, 24
-MOST_OF_SPREAD = 0.98  # of the values the axis shows; what lies outside is drawn at its edge
+MOST_OF_SPREAD = 0.98  # share of the values that the axis shows; others are drawn at its edge
 
 
 def ticks(low, high, about=5):
@@ -16,7 +16,7 @@ def ticks(low, high, about=5):
 
 
 def spread(values):
-    """Lowest and highest of the bulk of the values, never the same."""
+    """Limits for the bulk of the values, never equal."""
     known = sorted(value for value in values if math.isfinite(value))
     if not known:
         return 0.0, 1.0
@@ -56,7 +56,7 @@ class Chart:
         self.drawn.append(lambda: "".join(self._band(run, low, high, colour) for run in runs(low, high)))
 
     def marks(self, name, times, colour):
-        """Strokes at the bottom."""
+        """Marks at the bottom."""
         if times:
             self.legend.append((name, colour))
         bottom = HEIGHT - BOTTOM

@@ -1,4 +1,4 @@
-"""Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
+"""Part of doctor: each input has one publisher, the right type, a sufficient rate and current stamps."""
 from ingress_tools.observed_system import ARGUMENTS, PIPELINE
 from ingress_tools.remedies import AGAIN, another_topic, remedy
 
@@ -11,7 +11,7 @@ def is_of_world(system, topic):
 
 
 def world_waits(system, report):
-    """Whether the simulated world lacks what it draws by: the odometry of a vehicle that others simulate."""
+    """Whether the simulated world lacks its input: the odometry of a vehicle that another program simulates."""
     refuses = any(name.rsplit("/", 1)[-1].startswith("world: ") and status.level > 1 for name, status in system.said.items())
     return refuses or any(finding.level == "ERROR" for finding in report.findings)
 
@@ -55,7 +55,7 @@ def check_age(report, topic, publisher, sample, **place):
 
 
 def check_mavros(system, report, topics):
-    """MAVROS that is away, or has no autopilot, is one finding, however many of its topics are missing. \return those topics"""
+    """Reports a missing MAVROS, or one without an autopilot, as one finding for all its topics. \return those topics"""
     topics = [topic for topic in topics if "/mavros/" in topic]
     missing = [topic for topic in topics if not system.graph.publishers.get(topic)]
     if not topics or (missing != topics and any(system.samples[topic].times for topic in topics)):
