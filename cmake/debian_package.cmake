@@ -8,8 +8,8 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# dpkg-shlibdeps finds the libraries; this list is what scripts and launch files call. roslaunch needs the package.xml of
-# topic_tools, which Debian ships with the headers.
+# dpkg-shlibdeps finds the libraries; this list is what scripts and launch files call. roslaunch needs the package.xml
+# of topic_tools, which Debian ships with the headers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/devel/lib)
 set(run_dependencies
@@ -19,6 +19,6 @@ set(run_dependencies
     python3-rostopic python3-sensor-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs
     python3-yaml rosbash rosout topic-tools)
 list(JOIN run_dependencies ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
-# tf2-tools has static_transform_publisher. `ingress campaign` needs parallel, `ingress evaluate envelope` python3-deap.
+# tf2-tools has static_transform_publisher; ingress campaign needs parallel, ingress evaluate envelope python3-deap.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "rviz, tf2-tools, parallel, python3-deap")
 include(CPack)

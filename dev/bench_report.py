@@ -123,7 +123,7 @@ def found_table(times):
     rows = [[sequence] + [percent(times.get(f"{name}/{sequence}", {}).get("found")) for name in columns]
             for sequence in sequences_of(times)]
     head = ["images", "search: something found", "track: followed"]
-    return table("Detection rate, % of the images", head + [f"{PEERS[name]}: something found" for name in columns[2:]], rows)
+    return table("What came of it, % of the images", head + [f"{PEERS[name]}: something found" for name in columns[2:]], rows)
 
 
 def stage_table(times):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adds up check files and JUnit reports: lists what failed or was skipped, then prints "N passed, N failed".
+"""Adds up check files and JUnit reports: lists what failed or was skipped, ends with "N passed, N failed".
 
 Usage: count_results.py FOLDER... ; exits 1 if anything failed or nothing passed.
 """

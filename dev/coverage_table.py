@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints line coverage by folder of src/: coverage_table.py COVERAGE.json; exits 1 if one of the core is below 90 %."""
+"""Line coverage by folder of src/: coverage_table.py COVERAGE.json; exits 1 if one of the core is below 90 %."""
 import collections
 import json
 import sys

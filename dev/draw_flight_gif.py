@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a simulated flight as a short animation: the image with the window that the detector found, and the path from above.
 
-    scripts/run fly --scenario FILE.yaml --seeds 20 --keep-failures --output out/fly   # FILE.yaml: with too short a time limit, so that it is recorded
+    scripts/run fly --scenario FILE.yaml --seeds 20 --keep-failures --output out/fly   # FILE.yaml: time limit too short, so it is recorded
     scripts/run replay_bag --bag out/fly/failures/flight_20.bag --output out/replay --window-size 1.2,1.0
     scripts/run draw_flight_gif.py out/fly/failures/flight_20.bag --replay out/replay --output doc/flight.gif
 

@@ -45,7 +45,7 @@ def choose_target(deadline):
     clicks = rospy.Publisher("clicked_point", PointStamped, queue_size=1)
     while not chosen.wait(RETRY_S):  # wall time: /clock may not run yet
         if time.monotonic() >= deadline or rospy.is_shutdown():
-            raise RuntimeError(f"the target was not seen within {READY_WITHIN_S:.0f} s, so it could not be chosen")
+            raise RuntimeError(f"the target was neither seen nor chosen within {READY_WITHIN_S:.0f} s")
         clicks.publish(click)
 
 

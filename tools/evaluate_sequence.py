@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Tracks the target through an annotated video and prints for how long and how exactly.
 
-FOLDER/gt.csv has one row per frame: file and the target's corners x1, y1, ... x4, y4. The first frame with its corners is
-the reference. A frame is lost if nothing is detected in it, or if the detection overlaps the target by less than an
+FOLDER/gt.csv has one row per frame: file and the target's corners x1, y1, ... x4, y4. The first frame with its corners
+is the reference. A frame is lost if nothing is detected in it, or if the detection overlaps the target by less than an
 intersection over union of 0.7. Corners are compared in the cyclic order that fits best.
 """
 import os

@@ -10,7 +10,7 @@ VELOCITY_TIME_S = 0.25
 LONGEST_GUESS_S = 0.15      # without an image the motion is extrapolated for this many seconds
 FORGOTTEN_AFTER_S = 1.0
 MOST_MPS = 3.0              # no hand carries a camera faster: more means that another window was detected
-MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] limit for one image; sum at which the mirrored solution replaces the one followed
+MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] most from one image; sum that selects the mirrored solution
 # Axes of the camera (x right, y down, z ahead) in those of the body (x ahead, y left, z up).
 R_BODY_CAMERA = numpy.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 
@@ -36,7 +36,7 @@ class HandOdometry:
         self._doubt = 0.0  # evidence for the mirrored one [nats]
 
     def see(self, stamp_s, candidates, evidence=0.0):
-        """An image. candidates: [(rotation, place)] of the window in the camera, the likelier first; evidence: by how many nats."""
+        """candidates: [(rotation, place)] of the window in the camera, the likelier first. evidence: by how many nats."""
         candidates = [(R_BODY_CAMERA @ rotation, R_BODY_CAMERA @ place) for rotation, place in candidates]
         dt = None if self._seen_s is None else stamp_s - self._seen_s
         if dt is None or not 0.0 < dt < FORGOTTEN_AFTER_S:

@@ -39,7 +39,7 @@ def program(name):
 
 
 def command(name):
-    """The command that runs a tool or script: in a clone with scripts/run, which sets up the environment of its build."""
+    """The command that runs a tool or script: in a clone with scripts/run, which sets up the environment."""
     file = program(name)
     if file is None:
         raise FileNotFoundError(f"'{name}' is not built" if is_clone() else f"'{name}' is not installed")

@@ -45,7 +45,7 @@ def check_parameters(system, report):
     speed = number(system, report, "ingress_navigator", "navigator/limits/speed_mps")
     fastest = number(system, report, "setpoint_guard", "max_speed_mps")
     if speed and fastest and speed > fastest:
-        report.error(f"setpoint_guard refuses more than {fastest} m/s, ingress_navigator flies up to {speed} m/s: the guard sends zero instead",
+        report.error(f"setpoint_guard refuses more than {fastest} m/s, ingress_navigator flies up to {speed} m/s: the guard sends zero",
                      f"raise setpoint_guard/max_speed_mps above {speed} in your config, or lower navigator/limits/speed_mps")
     check_sizes(system, report)
 
