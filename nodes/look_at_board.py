@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Moves the simulated camera in front of the chessboard of config/scenarios/chessboard.yaml, as for a calibration: near, far and
-tilted views, with the board in all corners of the image, repeated until the end. For launch/board.launch."""
+tilted views, with the board in all corners of the image, in a loop. For launch/board.launch."""
 import itertools
 import math
 
