@@ -219,7 +219,7 @@ def test_who_rehearses_is_told_the_arguments_of_the_rehearsal(doctor):
     (True, ["/world"], 0, "ERROR  use_sim_time is set, but nothing comes on /clock from /world: time stands still\n       mend: /world hangs"),
     (True, [], 0, "ERROR  use_sim_time is set, but nobody publishes /clock"),
     (False, ["/world"], 0, "OK     time is that of this computer"),
-    (False, ["/world"], 3, "WARN   time is that of this computer; use_sim_time is not set, nobody heeds /clock from /world"),
+    (False, ["/world"], 3, "WARN   time is that of this computer; use_sim_time is not set, nodes ignore /clock from /world"),
     (False, [], 0, "OK     time is that of this computer")])
 def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, capsys, simulated, clocks, heard, said):
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: simulated if name == "/use_sim_time" else default)

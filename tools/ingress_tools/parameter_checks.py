@@ -35,7 +35,7 @@ def check_parameters(system, report):
         node = system.namespace_of(name)
         given = rospy.get_param(node, {})
         if not isinstance(given, dict):
-            report.error(f"the parameter {node} is '{given}', where {name} looks for its own below that name",
+            report.error(f"the parameter {node} is '{given}', but {name} has its parameters below that name",
                          f"scripts/run rosparam delete {node}", [name])
             continue
         strange = sorted(key for key in keys(given) if key not in known and not key.startswith("tuning/"))
