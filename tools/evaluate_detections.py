@@ -162,7 +162,7 @@ def report(records, title, per_scene):
 
 
 def wrong(records):
-    """Targets not found, and what was found where there is none."""
+    """Missed targets and false detections."""
     return [r for r in records if not r["hit"] and (r["target"] or r["detected"])]
 
 

@@ -27,7 +27,7 @@ def spread(values):
 
 
 def runs(*columns):
-    """Indices of neighbours that are finite in all columns."""
+    """Runs of neighbouring indices that are finite in all columns."""
     run = []
     for i, values in enumerate(zip(*columns)):
         if all(math.isfinite(value) for value in values):

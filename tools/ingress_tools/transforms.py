@@ -20,7 +20,7 @@ def matrix_of(quaternion):
 
 
 def rotation_of(message):
-    """Of a geometry_msgs/Quaternion."""
+    """Rotation of a geometry_msgs/Quaternion."""
     return matrix_of([message.x, message.y, message.z, message.w])
 
 
