@@ -84,7 +84,7 @@ struct DrawnWindow {
   }
 };
 
-/// The same image before a wall of bricks with pale joints.
+/// The same window in a brick wall with pale joints.
 inline cv::Mat drawnBricks(const DrawnWindow& window, int brick_px = 32, int course_px = 12) {
   cv::Mat image(window.height, window.width, CV_8UC3, cv::Scalar(60, 75, 140));
   const cv::Scalar joint(150, 155, 160);
@@ -107,8 +107,8 @@ inline geometry::Quadrilateral rectangle(double left, double top, double right, 
   return {Vector2d(left, top), Vector2d(right, top), Vector2d(right, bottom), Vector2d(left, bottom)};
 }
 
-/// The same seen turned by `angle_rad` about its centre and with perspective: the right side shorter by
-/// `keystone`.
+/// The same rectangle, turned by `angle_rad` about its centre and in perspective: `keystone` shortens the
+/// right side.
 inline geometry::Quadrilateral turned(geometry::Quadrilateral quad, double angle_rad, double keystone) {
   const Eigen::Vector2d centre = geometry::centroid(quad);
   for (int i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-/// A flat wall with windows painted on it, seen by a moving camera, for tests of what happens over time.
+/// A flat wall with painted windows, seen by a moving camera. For tests over several images.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,13 +12,13 @@
 
 namespace window_ingress::test {
 
-/// The wall is the plane z = 0 of the world, x to the right and y down as painted; the camera looks along +z
-/// from z < 0.
+/// The wall is the plane z = 0 of the world, with x to the right and y down. The camera looks along +z from z
+/// < 0.
 class FlatFacade {
  public:
   static constexpr double kPixelsPerMetre = 200.0;
 
-  /// `count` equal windows side by side, `spacing_m` from middle to middle, the first at x = 0.
+  /// `count` equal windows side by side, `spacing_m` between their centres, the first at x = 0.
   FlatFacade(int count, double spacing_m, double width_m, double height_m, double frame_m)
       : wall_(static_cast<int>(6 * kPixelsPerMetre),
               static_cast<int>((6.0 + spacing_m * (count - 1)) * kPixelsPerMetre), CV_8UC3,
@@ -82,7 +82,7 @@ class FlatFacade {
     map << 1.0 / kPixelsPerMetre, 0, -3.0, 0, 1.0 / kPixelsPerMetre, -3.0, 0, 0, 1;
     return map;
   }
-  // Wall coordinates to pixels.
+  // Converts wall coordinates to pixels.
   static Eigen::Matrix3d homography(const Camera& from, const geometry::PinholeCamera& camera) {
     const Eigen::Matrix3d R = from.R_world_camera().transpose();
     Eigen::Matrix3d plane;

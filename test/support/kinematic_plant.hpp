@@ -1,6 +1,6 @@
-/// A vehicle without a renderer, for tests of the navigator: velocity follows the setpoint with lag and
-/// delay, the window is seen while all of it lies in the field of view, and the estimate is the truth with
-/// errors that grow with distance.
+/// A vehicle without a renderer, for tests of the navigator. The velocity follows the setpoint with lag and
+/// delay. The window is seen while all of it is in the field of view. The estimate is the truth with errors
+/// that grow with distance.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@ struct PlantParams {
   double lag_sec = 0.2;           ///< time constant of the velocity
   double acceleration_mps2 = 4.0;
   double camera_latency_sec = 0.05;
-  double yaw_sigma_rad_at_4m = 0.01;     ///< grows with the square of the distance
-  double position_sigma_m_at_4m = 0.02;  ///< likewise
+  double yaw_sigma_rad_at_4m = 0.01;     ///< at 4 m; grows with the square of the distance
+  double position_sigma_m_at_4m = 0.02;  ///< at 4 m; grows with the square of the distance
   double odom_drift_mps = 0.0;           ///< along y
   double gust_mps = 0.0;                 ///< sideways wind velocity, slowly varying
   bool is_ambiguous = false;             ///< the sign is not trusted until the height has changed by 0.4 m
   unsigned seed = 1;
   geometry::OpeningSize opening{1.2, 1.0};
-  openness::Openness openness = openness::Openness::kOpen;  ///< as it is seen
+  openness::Openness openness = openness::Openness::kOpen;  ///< verdict reported to the navigator
 };
 
 class KinematicPlant {
@@ -86,7 +86,7 @@ class KinematicPlant {
   double furthestSideways() const { return furthest_; }
   double yaw() const { return yaw_; }
   const Eigen::Isometry3d& window() const { return T_odom_window_; }
-  /// Within a few steps.
+  /// Moves the vehicle by this way within a few steps.
   void push(const Eigen::Vector3d& by_m) { pushed_m_ += by_m; }
   void shiftOdometry(const Eigen::Vector3d& by_m) { drift_ += by_m; }
 

@@ -1,4 +1,4 @@
-/// Good samples to spoil in tests of the navigator.
+/// Valid inputs that tests of the navigator can change.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline navigation::VehicleState vehicleAt(const Eigen::Vector3d& position_m, dou
   return vehicle;
 }
 
-/// An open window at the origin of odom, 1.5 m high, flown into along odom's x axis.
+/// An open window at the origin of odom, 1.5 m high; its axis is odom's x axis.
 inline navigation::TargetEstimate targetAtOrigin(double stamp_sec, bool sign_trusted = true) {
   navigation::TargetEstimate target;
   target.stamp_sec = stamp_sec;
@@ -33,7 +33,7 @@ inline navigation::NavigatorInput inputAt(const Eigen::Vector3d& position_m, dou
                                           bool with_target = true) {
   navigation::NavigatorInput input;
   input.vehicle = vehicleAt(position_m, now_sec);
-  input.vehicle->T_odom_base.translation().z() += 1e-7 * std::sin(1e3 * now_sec);  // it never repeats itself
+  input.vehicle->T_odom_base.translation().z() += 1e-7 * std::sin(1e3 * now_sec);  // so that no two are equal
   input.image_stamp_sec = now_sec;
   if (with_target) input.target = targetAtOrigin(now_sec);
   return input;

@@ -1,4 +1,4 @@
-/// The paper's pipeline composed straight from OpenCV's functions: what the detector is compared with.
+/// The paper's pipeline, composed of OpenCV functions. The detector is compared with it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace window_ingress::test {
 /// are those of OpenCV's own examples. Buffers are kept from image to image.
 class OpencvComposition {
  public:
-  /// \param with_hough false: the edges themselves are dilated
+  /// \param with_hough false: the edges are dilated directly
   explicit OpencvComposition(bool with_hough = true) : with_hough_(with_hough) {}
 
   /// \param image BGR \param opening inner border of the opening in it
@@ -83,7 +83,7 @@ class OpencvComposition {
     return true;
   }
 
-  /// Hue and saturation of what the box round the outline shows.
+  /// Histogram of hue and saturation in the bounding box of the outline.
   static cv::Mat histogram(const cv::Mat& image, const std::vector<cv::Point>& outline) {
     const cv::Rect box = cv::boundingRect(outline) & cv::Rect(cv::Point(0, 0), image.size());
     cv::Mat hsv, counts;

@@ -1,4 +1,4 @@
-/// A wall that looks different everywhere, with an opening in it, for tests.
+/// A wall with a different pattern at each place and with an opening, for tests.
 #pragma once
 
 #include <random>
@@ -10,8 +10,8 @@
 
 namespace window_ingress::test {
 
-/// A wall of coloured patches with a window in it, in metres from the middle of the opening; the same for the
-/// same seed.
+/// A wall of coloured patches with a window, in metres from the centre of the opening. Equal seeds give equal
+/// walls.
 class PatchedWall {
  public:
   static constexpr double kAspect = 1.2;  ///< of the opening: width over height
@@ -49,7 +49,7 @@ class PatchedWall {
   }
 
   cv::Scalar paint = cv::Scalar(30, 110, 210);  ///< of the frame
-  bool is_open = true;                          ///< false: the wall goes on where the opening was
+  bool is_open = true;                          ///< false: the wall covers the opening, too
   double painted_reveal_m = 0.0;                ///< depth of a reveal in a darker shade of the frame's paint
 
   static geometry::PinholeCamera lensless() {

@@ -11,13 +11,13 @@
 
 namespace window_ingress::test {
 
-/// That these words are part of the text; if not, it shows both.
+/// Succeeds if the text contains these words; otherwise shows both.
 inline testing::AssertionResult says(const std::string& text, const std::string& words) {
   if (text.find(words) != std::string::npos) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "'" << words << "' is not said by: " << text;
 }
 
-/// What `action` says as it refuses its input; nothing if it takes it.
+/// The message of the Error that `action` throws; empty if it throws none.
 template <typename Error = InputError, typename Action>
 std::string refusalOf(const Action& action) {
   try {
@@ -28,14 +28,14 @@ std::string refusalOf(const Action& action) {
   return "";
 }
 
-/// A folder that nobody else uses; it goes with its object.
+/// A unique folder that is deleted with its object.
 struct TemporaryFolder {
   TemporaryFolder() : path(mkdtemp(std::string("/tmp/window_ingress_XXXXXX").data())) {}
   ~TemporaryFolder() { std::filesystem::remove_all(path); }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// The file's name in full, and what it now holds.
+  /// Writes the text into the file. \return its absolute path
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name) << text;
     return (path / name).string();

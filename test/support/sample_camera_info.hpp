@@ -4,7 +4,7 @@
 
 namespace window_ingress::test {
 
-/// Of a calibrated camera; K and P differ, so that nobody takes one for the other.
+/// A calibrated camera. K and P differ, so that tests notice if they are confused.
 inline sensor_msgs::CameraInfo sampleCameraInfo() {
   sensor_msgs::CameraInfo info;
   info.width = 640;

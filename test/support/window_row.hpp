@@ -1,4 +1,4 @@
-/// Windows side by side in a wall, as a vehicle sees them; for tests of what is remembered of them.
+/// Windows side by side in a wall, as a vehicle sees them; for tests of the façade memory.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ struct WindowRow {
     return view;
   }
 
-  /// Nothing where it is not wholly in view.
+  /// Nothing if the window is not wholly in view.
   std::optional<detection::SeenWindow> seen(int i, const facade::Viewpoint& view,
                                             std::mt19937& random) const {
     const Eigen::Isometry3d T_odom_window = geometry::makePose(Eigen::Matrix3d::Identity(), centre(i));
@@ -46,7 +46,7 @@ struct WindowRow {
     return window;
   }
 
-  /// All in view; \param target number in the row of the one that is followed, -1: none
+  /// All windows in view. \param target index in the row of the tracked window, -1: none
   facade::FacadeView look(double stamp_sec, const facade::Viewpoint& view, int target,
                           std::mt19937& random) const {
     facade::FacadeView look{stamp_sec, view, {}, 0};
@@ -60,7 +60,7 @@ struct WindowRow {
     return look;
   }
 
-  /// What a filter that has settled knows of a window.
+  /// Estimate of a window by a filter that has converged.
   estimation::FilteredWindow filtered(int i, double stamp_sec) const {
     estimation::FilteredWindow window;
     window.stamp_sec = stamp_sec;

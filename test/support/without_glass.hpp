@@ -1,11 +1,11 @@
-/// For tests in which nobody is there to be asked.
+/// For tests without an operator.
 #pragma once
 
 #include "window_ingress/navigation/navigator_params.hpp"
 
 namespace window_ingress::test {
 
-/// The defaults, but somebody has made sure that there is no glass: an open window is flown through unasked.
+/// The defaults, but with glass excluded: the vehicle flies through an open window without asking.
 inline navigation::NavigatorParams withoutGlass() {
   navigation::NavigatorParams params;
   params.commit.glass = "excluded";

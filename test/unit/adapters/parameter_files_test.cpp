@@ -1,4 +1,4 @@
-// The shipped yaml files and the schema of dynamic_reconfigure say the same as the structs.
+// The shipped yaml files and the schema of dynamic_reconfigure agree with the structs.
 #include <gtest/gtest.h>
 #include <window_ingress/WindowDetectorConfig.h>
 #include <yaml-cpp/yaml.h>
@@ -17,7 +17,7 @@ namespace window_ingress::adapters::parameter_files_test {
 
 using parameters::Field;
 
-// The values of a file, by the whole names of their fields.
+// The values of a file by the full names of their fields.
 void list(const YAML::Node& node, const std::string& path, std::map<std::string, YAML::Node>& values) {
   if (!node.IsMap()) values[path] = node;
   if (node.IsMap())

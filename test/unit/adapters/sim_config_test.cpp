@@ -1,4 +1,4 @@
-// config/sim.yaml tells the nodes of the simulated vehicle and its camera: the same as the scenarios say.
+// config/sim.yaml describes the same vehicle and camera as the scenarios.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 

@@ -25,7 +25,7 @@ TEST(Slider, WideRangesGoByTheLogarithm) {
   EXPECT_EQ(slider.valueAt(Slider::kSteps + 5), 1000.0);
 }
 
-// Of every parameter that there is: the ends are reached, it never falls, and the default is kept to a step.
+// For every parameter: the slider reaches both ends, is monotonic, and keeps the default within one step.
 TEST(Slider, FitsEveryParameterOfTheDetector) {
   detection::DetectorParams params;
   for (const parameters::Field& one : parameters::fieldsOf(params)) {

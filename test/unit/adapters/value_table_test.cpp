@@ -1,4 +1,4 @@
-// What tune_detector shows beside its sliders.
+// The table that tune_detector shows beside its sliders.
 #include "tools/value_table.hpp"
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ TEST_F(OverlayFile, WithoutAFileEverythingIsAtItsDefault) {
   EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.width_m, 0.6);
 }
 
-// What earlier versions took as --params, and in silence as config:=.
+// Forms that earlier versions accepted as --params, and silently as config:=.
 TEST_F(OverlayFile, RefusesSectionsWithoutTheirNode) {
   EXPECT_EQ(error("navigator: {vehicle: {half_width_m: 0.45}}\n"),
             file_ + ":1: navigator: unknown key; did you mean 'ingress_navigator: {navigator: ..}'?");
@@ -59,7 +59,7 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
                          "there is half_length_m, half_width_m, half_height_m, "));
 }
 
-// Lifted out of its group, a name says nothing of which one was meant.
+// Without its group a field's name is ambiguous.
 TEST_F(OverlayFile, NamesAllKeysThatAreCalledSo) {
   const std::string said = error("ingress_navigator: {navigator: {speed_mps: 0.4}}\n");
   for (const char* group : {"limits", "approach", "commit"})

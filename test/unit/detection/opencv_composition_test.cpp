@@ -6,7 +6,7 @@
 
 namespace window_ingress::test::opencv_composition_test {
 
-constexpr double kFramePx = 14.0, kLinePx = 8.0;  ///< it may take the outer border, and its lines are thick
+constexpr double kFramePx = 14.0, kLinePx = 8.0;  ///< it may find the outer border; its lines are thick
 constexpr double kLeft = 220, kTop = 140, kRight = 420, kBottom = 320;
 
 DrawnWindow plainWindow() {
@@ -36,8 +36,8 @@ TEST(OpencvComposition, WithoutHoughItFindsAPlainWindow) {
   EXPECT_TRUE(isNear(found, kFramePx + kLinePx)) << cv::boundingRect(found);
 }
 
-// Redrawn segments leave gaps at corners in most images: the weakness of the literal chain. In a clean one
-// it works.
+// In most images the redrawn segments leave gaps at the corners, the weakness of the literal pipeline. In a
+// clean image it works.
 TEST(OpencvComposition, WithHoughItFindsAWindowInAnImageWithoutNoise) {
   OpencvComposition composition;
   DrawnWindow clean = plainWindow();

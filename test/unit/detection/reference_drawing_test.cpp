@@ -30,7 +30,7 @@ TEST(RingLine, HoldsTheOpeningWhateverItsShape) {
   }
 }
 
-// Tints where the colours are compared, the rest faded, and the border in green.
+// The compared colours are tinted, the rest is faded, and the border is green.
 TEST(DrawReference, ShowsBorderAndBands) {
   const ReferenceAppearance reference(image(CV_8UC3), kOpening);
   const cv::Mat drawn = drawReference(reference);  // bands: 10 px and 28 px wide

@@ -26,10 +26,10 @@ TEST(WindowsSeen, AreTheTargetAndWhatIsAWindowByItsGeometryEachOnce) {
   target.score = 0.9;
   DetectionTrace trace;
   trace.candidates = {candidate(10, 10, 50, RejectReason::kNone, 0.9),
-                      candidate(7, 7, 56, RejectReason::kOutscored, 0.95),       // its outer border
+                      candidate(7, 7, 56, RejectReason::kOutscored, 0.95),       // the target's outer border
                       candidate(100, 10, 50, RejectReason::kOutscored, 0.6),     // a neighbour
-                      candidate(103, 13, 44, RejectReason::kAppearance, 0.7),    // a loop of the neighbour
-                      candidate(200, 10, 50, RejectReason::kAppearance, 0.8),    // one in another colour
+                      candidate(103, 13, 44, RejectReason::kAppearance, 0.7),    // the neighbour again
+                      candidate(200, 10, 50, RejectReason::kAppearance, 0.8),    // a window of another colour
                       candidate(300, 10, 50, RejectReason::kLineSupport, 0.9)};  // no window
   const auto windows = seen(trace, target);
   ASSERT_EQ(windows.size(), 3u);

@@ -11,7 +11,7 @@
 
 namespace window_ingress::detection::stage_timer_test {
 
-// Each look at it takes a millisecond.
+// A clock that advances by a millisecond at each reading.
 double slow_clock_sec = 0.0;
 double slowClock() { return slow_clock_sec += 1e-3; }
 
@@ -58,7 +58,7 @@ TEST(StageTimer, AWindowIsSearchedThenFollowed) {
   for (const Stage stage : {Stage::kPreprocess, Stage::kEdges, Stage::kLines, Stage::kOutlines,
                             Stage::kCandidates, Stage::kReference, Stage::kBorders})
     EXPECT_GT(watch.milliseconds(stage), 0.0) << toString(stage);
-  tracker.setParams(DetectorParams{});  // the watch stays
+  tracker.setParams(DetectorParams{});  // keeps the timer
   input.stamp_sec = 0.03;
   watch.begin();
   ASSERT_TRUE(tracker.update(input));

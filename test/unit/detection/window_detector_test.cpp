@@ -91,7 +91,7 @@ TEST(WindowDetector, WithAReferenceFindsTheInnerBorderFromManyDistancesAndAngles
   EXPECT_GE(viewsFound(detector, 11, 60), 57);
 }
 
-// Far away the two borders of a thin frame merge on the search level, and the outer one is taken.
+// Far away the two borders of a thin frame merge at the resolution of the search, which finds the outer one.
 TEST(WindowDetector, WithoutAReferenceFindsMostInnerBorders) {
   WindowDetector detector{DetectorParams()};
   EXPECT_GE(viewsFound(detector, 11, 60), 48);

@@ -14,7 +14,7 @@
 
 namespace window_ingress::adapters::bag_check_test {
 
-/// A folder of its own, and small bags in it.
+/// A temporary folder with small bags.
 class BagCheck : public testing::Test {
  protected:
   void write(rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
@@ -41,7 +41,7 @@ class BagCheck : public testing::Test {
     std::ofstream(file_, std::ios::binary)
         .write(content.data(), static_cast<std::streamsize>(content.size()));
   }
-  /// Opened and replayed; true if it was read to its end, false if it was refused by name.
+  /// Opens and replays the bag. \return true if it was read to its end, false if it was refused by name
   bool replayed() const {
     const std::string refusal = test::refusalOf([&] {
       rosbag::Bag bag;
@@ -83,7 +83,7 @@ TEST_F(BagCheck, LeavesWhatIsNoBagToRosbag) {
   EXPECT_NE(whyDamaged(file_).find("old version"), std::string::npos);
 }
 
-// Opening a bag takes rosbag tens of milliseconds: only some of the files are handed on to it.
+// rosbag takes tens of milliseconds to open a bag, so only some of the files are opened.
 TEST_F(BagCheck, ABagThatIsCutOffAnywhereIsRefused) {
   write();
   const std::vector<char> whole = bytes();
@@ -98,7 +98,7 @@ TEST_F(BagCheck, ABagThatIsCutOffAnywhereIsRefused) {
   }
 }
 
-// Of every byte in turn one bit or all: nothing of it may crash rosbag.
+// Changes one bit or all bits of every byte in turn: rosbag must not crash.
 TEST_F(BagCheck, FlippedBytesAreReadOrRefused) {
   write();
   const std::vector<char> whole = bytes();

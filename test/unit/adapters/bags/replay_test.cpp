@@ -91,7 +91,7 @@ tf2_msgs::TFMessage mounting(const ros::Time& stamp) {
   return message;
 }
 
-// What a looped replay records: the clock of the bag goes on, the stamps of its messages begin again.
+// As recorded in a looped replay: the bag's clock continues, while the message stamps start again.
 void record(const std::string& file, const Recording& recording) {
   rosbag::Bag bag(file, rosbag::bagmode::Write);
   double received_sec = 1000.0;
@@ -223,7 +223,7 @@ TEST_F(ReplayTest, TablesHaveARowAnImageAndRepeatThemselves) {
   for (const char* table : {"frames.csv", "details.csv", "latency.csv", "strip.csv"}) {
     const auto lines = linesOf(folder_ / "one" / table);
     ASSERT_EQ(lines.size(), 1u + kImages) << table;
-    const auto commas = [](const std::string& line) {  // that part columns: not those within quotes
+    const auto commas = [](const std::string& line) {  // commas between columns, not within quotes
       int count = 0, quotes = 0;
       for (const char c : line) {
         quotes += c == '"';
@@ -241,7 +241,7 @@ TEST_F(ReplayTest, TheStripShowsEachChange) {
   record(folder_ / "a.bag", {});
   rosbag::Bag bag;
   openBag(bag, folder_ / "a.bag");
-  DetectionStrip strip(folder_, 1000);  // many more are said to come: only the first is due
+  DetectionStrip strip(folder_, 1000);  // expects many more frames: only the first is due
   replay(bag, paramsFor(bag), [&](const ReplayedFrame& frame) { strip.add(frame); });
   const auto lines = linesOf(folder_ / "strip.csv");
   ASSERT_GE(lines.size(), 4u);

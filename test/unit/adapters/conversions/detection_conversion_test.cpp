@@ -95,7 +95,7 @@ TEST(WindowDetection, ACornerThatIsNotSeenGoesThereAndBackAsNone) {
   EXPECT_EQ(message.corners[2].x, 0.0);
   EXPECT_EQ(message.corners[3].covariance[3], 0.0);
   message.header.stamp = ros::Time(12.5);
-  message.corners[3].x = 77.0;  // invalid, whatever it says
+  message.corners[3].x = 77.0;  // an invalid corner: its values must not count
   const auto back = fromMsg(message);
   ASSERT_TRUE(back);
   EXPECT_FALSE(back.value->whole());

@@ -1,4 +1,4 @@
-/// Constants of the messages are the enums of the core: what differs does not compile.
+/// The constants of the messages equal the enums of the core; a difference does not compile.
 #include <window_ingress/FlightVerdict.h>
 
 #include "adapters/conversions/msg_conversion.hpp"

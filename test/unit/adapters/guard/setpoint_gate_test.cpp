@@ -75,7 +75,7 @@ TEST(SetpointGate, InputThatIsRefusedForTooLongIsNoInput) {
   const GuardParams params;
   SetpointGate gate(params);
   gate.receive(twist(kNan, 0.0), 0.0);
-  expectZero(gate.output(1e3));  // never anything sane: standing by
+  expectZero(gate.output(1e3));  // no valid setpoint yet: stand-by
   gate.receive(twist(0.5, 0.0), 2e3);
   for (double now = 2e3; now < 2e3 + params.stop_streaming_after_sec; now += 0.03) {
     gate.receive(twist(50.0, 0.0), now);
@@ -116,7 +116,7 @@ class RandomInput {
   std::mt19937 random_{7};
 };
 
-// Whatever comes, and whenever.
+// Any input, at any time.
 TEST(SetpointGate, PropertiesHoldForRandomInputs) {
   const GuardParams params;
   SetpointGate gate(params);

@@ -22,7 +22,7 @@ sensor_msgs::ImagePtr makeImage(const std::string& encoding, std::uint32_t width
   return image;
 }
 
-// A colour ramp as BGR, every encoding of which must look alike.
+// A colour ramp as BGR. Every encoding of it must convert to the same image.
 cv::Mat ramp() {
   cv::Mat image(48, 64, CV_8UC3);
   for (int y = 0; y < image.rows; ++y)

@@ -13,7 +13,7 @@ class ImageTimesTest : public testing::Test {
  protected:
   void SetUp() override { now_sec = 1000.0; }
 
-  // One image; number and clock go on by one image of the camera for each that was dropped.
+  // One image. Image number and clock advance by one image for each dropped one.
   void image(ProcessingTime& times, double edges_ms, int dropped = 0, double period_sec = 0.05) {
     header_.seq += 1 + dropped;
     header_.stamp += ros::Duration((1 + dropped) * 0.05);
@@ -32,7 +32,7 @@ class ImageTimesTest : public testing::Test {
     return -1.0;
   }
   std_msgs::Header header_;
-  double due_sec_ = 1000.0;  // when the camera's last image came
+  double due_sec_ = 1000.0;  // arrival time of the camera's last image
 };
 
 TEST_F(ImageTimesTest, StagesAreToldInMilliseconds) {

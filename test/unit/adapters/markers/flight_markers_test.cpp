@@ -120,8 +120,8 @@ TEST(FlightMarkers, ASpoiltTargetIsNotDrawn) {
   for (const auto& point : markers.at("funnel").points) EXPECT_TRUE(at(point).allFinite());
 }
 
-// What is drawn is what the navigator judges by: just inside the drawn wall it is in its funnel, just outside
-// not.
+// The drawn funnel equals the navigator's: a vehicle just inside the drawn wall is in the funnel, one just
+// outside is not.
 TEST(Funnel, IsTheOneThatTheNavigatorFliesBy) {
   navigation::NavigatorParams params;
   std::mt19937 random(11);

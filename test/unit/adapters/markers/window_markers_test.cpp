@@ -87,7 +87,7 @@ TEST(WindowMarkers, TheEllipsoidIsThatOfTheCentre) {
   EXPECT_NEAR(scale.minCoeff(), 2.0 * 3.0 * 0.05, 1e-9);
 }
 
-// The area of the wall is that of its outline less the opening: nothing of the opening is covered.
+// The area of the wall equals its outline minus the opening: the wall covers no part of the opening.
 TEST(WindowMarkers, TheWallLeavesTheOpeningFree) {
   const Marker wall = drawn(trustedWindow()).at("wall");
   double area_m2 = 0.0;

@@ -77,7 +77,7 @@ TEST(TargetHealth, NamesTheShapeThatIsSeenAndTheOneThatIsSaid) {
 }
 
 TEST(TargetHealth, SaysWhyWhereTheShapeIsRight) {
-  for (const double aspect : {1.2, 0.0}) {  // 0: no image shows it
+  for (const double aspect : {1.2, 0.0}) {  // 0: no image shows the aspect
     const Health right = targetHealth(seenInVain(30, aspect), {1.2, 1.0});
     EXPECT_EQ(right.level, Health::kError);
     EXPECT_TRUE(says(right, "used in none: gated out")) << right.text;

@@ -1,4 +1,4 @@
-// A write never waits for what is behind it, and what was written before it stood still comes out whole.
+// A write never waits for the reader. Text written before the reader stopped still arrives complete.
 #include "adapters/runtime/console_output.hpp"
 
 #include <fcntl.h>
@@ -31,7 +31,7 @@ class ConsoleOutput : public testing::Test {
     if (output_ >= 0) close(output_);
     if (reader_ >= 0) close(reader_);
   }
-  /// \return how many went in
+  /// \return number of lines that were written
   int writeLines(int count) const {
     int written = 0;
     for (int i = 0; i < count; ++i) {

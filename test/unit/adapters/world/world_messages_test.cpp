@@ -6,7 +6,7 @@
 
 namespace window_ingress::adapters::world_messages_test {
 
-// Heading left, flying along the odometry frame's x: to its own right.
+// The vehicle is turned to the left and flies along the odometry frame's x axis, which is to its right.
 simulation::OdometrySample flyingToItsRight() {
   simulation::OdometrySample sample;
   sample.T_odom_base = geometry::makePose(geometry::yawRotation(M_PI_2), {1.0, 2.0, 3.0});

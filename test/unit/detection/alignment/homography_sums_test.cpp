@@ -16,13 +16,13 @@ TEST(HomographySums, AreWhatTheDerivativesAddUpTo) {
   for (int i = 0; i < 50; ++i) {
     const float x = uniform(random), y = uniform(random), a = uniform(random), b = uniform(random),
                 weight = 1.0F + uniform(random);
-    // Twice the same point with half of the weight.
+    // The same point twice, each with half of the weight.
     const Monomials m[2] = {monomialsOf(x, y), monomialsOf(x, y)};
     const float wa = 0.5F * weight * a, wb = 0.5F * weight * b, half_a[2] = {wa, wa}, half_b[2] = {wb, wb};
     const float aa[2] = {wa * a, wa * a}, ab[2] = {wa * b, wa * b}, bb[2] = {wb * b, wb * b};
     normal.add(m[0].data(), aa, ab, bb, 2);
     sum.add(m[0].data(), half_a, half_b, 2);
-    Vector8f J;  // of the slope (a, b) at (x, y)
+    Vector8f J;  // Jacobian of the slope (a, b) at (x, y)
     J << a * x, a * y, a, b * x, b * y, b, -(a * x + b * y) * x, -(a * x + b * y) * y;
     expected_normal += weight * J * J.transpose();
     expected_sum += weight * J;

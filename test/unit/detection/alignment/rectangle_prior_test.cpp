@@ -16,7 +16,7 @@ constexpr double kAspect = 1.3;
 
 geometry::PinholeCamera camera() { return geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2); }
 
-// Of a rectangle of that aspect, seen from the side.
+// Map of a rectangle of that aspect, seen from the side.
 Eigen::Matrix3d mapOf(double aspect, double skew) {
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()) *
@@ -36,7 +36,7 @@ Shape shapeOf(const Eigen::Matrix3d& map) {
           view.col(0).normalized().dot(view.col(1).normalized())};
 }
 
-// One step with next to nothing else known.
+// One step of the prior, with almost no other information.
 Eigen::Matrix3d stepped(const Eigen::Matrix3d& map) {
   Matrix8f normal = 1e-3F * Matrix8f::Identity();
   Vector8f right = Vector8f::Zero();
@@ -75,7 +75,7 @@ TEST(RectanglePrior, TellsHowFarAViewIsFromThoseOfTheRectangle) {
   EXPECT_GT(prior.misfit(mapOf(kAspect, 0.03)), 9.0);
 }
 
-// The left side was taken for something within the opening.
+// The left side was placed on something within the opening.
 TEST(RectanglePrior, ASideIsPlacedByTheThreeOthers) {
   const RectanglePrior prior(camera(), {kAspect, 0.01});
   geometry::Quadrilateral truth, seen, whole;
@@ -91,8 +91,8 @@ TEST(RectanglePrior, ASideIsPlacedByTheThreeOthers) {
       << "how far it is turned shows in the heights of two sides, which end at the one that is hidden";
 }
 
-// A rectangle seen from the front is one whatever the camera; foreshortened, its perspective
-// depends on the focal length.
+// Seen from the front, a rectangle is consistent with every focal length. Foreshortened, its perspective
+// depends on it.
 TEST(RectanglePrior, WithoutACalibrationAForeshortenedViewSaysLess) {
   const auto told = [](const RectanglePrior& prior, const Eigen::Matrix3d& map) {
     Matrix8f normal = Matrix8f::Zero();
@@ -108,7 +108,7 @@ TEST(RectanglePrior, WithoutACalibrationAForeshortenedViewSaysLess) {
   EXPECT_LT(told(guessed, from_the_side), 0.1F * told(calibrated, from_the_side));
 }
 
-// Seen from before its right side, a little above its top.
+// Seen from in front of its right side, a little above its top.
 TEST(RectanglePrior, TellsFromWhereEachSideIsSeen) {
   Eigen::Matrix3d view;
   view << kAspect, 0, -0.5 * kAspect, 0, 1, 0.6, 0, 0, 2.0;

@@ -105,7 +105,7 @@ TEST(RingAlignment, AThirdOfTheRingMayBeCovered) {
   EXPECT_GT(scene.match.faithful_uncovered, scene.match.faithful + 0.1) << "what is not covered fits";
 }
 
-// Each segment of the ring is crossed: none of them fits as a whole.
+// Something crosses each segment of the ring, so that none fits as a whole.
 TEST(RingAlignment, WhatCrossesAllOfTheRingIsLeftOut) {
   Scene scene{PatchedWall(6)};
   scene.look(seenFrom(2.5, -0.2));
@@ -140,7 +140,7 @@ TEST(RingAlignment, WhatStandsBeforeTheRingIsLeftOutFromTheBeginningWhereItIsExp
   }
 }
 
-// The left side is hidden by something that ends in an edge like a border's.
+// An occluder hides the left side; its edge looks like a border.
 TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed : {3, 9}) {
@@ -164,7 +164,7 @@ TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
   }
 }
 
-// The left side is hidden by something that ends in an edge like a border's, within the opening.
+// An occluder within the opening hides the left side; its edge looks like a border.
 TEST(RingAlignment, AHiddenSideIsPlacedByTheThreeOthers) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed : {3, 9}) {
@@ -189,7 +189,7 @@ TEST(RingAlignment, AHiddenSideIsPlacedByTheThreeOthers) {
   }
 }
 
-// Someone in a patterned coat stands before a third of the ring.
+// Somebody in a patterned coat covers a third of the ring.
 TEST(RingAlignment, WhatStandsBeforeOneSideDoesNotPullWhereTheShapeIsKnown) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed = 3; seed < 9; ++seed) {
@@ -212,7 +212,7 @@ TEST(RingAlignment, WhatStandsBeforeOneSideDoesNotPullWhereTheShapeIsKnown) {
   }
 }
 
-// Errors of the sides over what is said of them, in many views.
+// Squared errors of the sides over their stated variances, in many views.
 TEST(RingAlignment, WhatIsSaidOfTheSidesIsHonest) {
   Scene scene{PatchedWall(3)};
   scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
@@ -329,7 +329,7 @@ TEST(RingAlignment, LensesAreSeenThrough) {
 TEST(RingModel, WhatTheReferenceDoesNotShowIsLeftOut) {
   Quadrilateral opening;
   const cv::Mat image = PatchedWall(3).draw(seenFrom(2.5, 0.0), &opening);
-  const int top = static_cast<int>(opening[0].y()) - 4;  // next to nothing above the opening
+  const int top = static_cast<int>(opening[0].y()) - 4;  // almost no wall above the opening
   Quadrilateral cut = opening;
   for (auto& corner : cut) corner.y() -= top;
   RingModel whole, part;

@@ -19,7 +19,7 @@ ScoredCandidate rough(const Quadrilateral& quad, double score = 0.7) {
   return rival;
 }
 
-/// A judge that knows one wall, before a view of it.
+/// A judge that has learned one wall, in front of a view of it.
 struct Known {
   explicit Known(const PatchedWall& wall) {
     Quadrilateral corners;
@@ -99,7 +99,7 @@ TEST(RingMatcher, PlacesEverywhereNeedAReferenceAndAnImageLikeIt) {
   EXPECT_TRUE(known.judge.placesEverywhere(known.image(cv::Rect(0, 0, 20, 16))).empty());
 }
 
-// Borders near those of a view of a wall whose left one was taken for something beside it.
+// Borders near those of a view of a wall; the left border was placed on something beside it.
 std::optional<RefinedBorders> bordersNear(const PatchedWall& reference, const Known& seen, double off_px) {
   Quadrilateral corners, place = seen.opening;
   const cv::Mat image = reference.draw(seenFrom(2.5, 0.0), &corners);
@@ -122,7 +122,7 @@ TEST(WindowDetector, WhatLiesRoundItLeadsToTheBordersOfAHoleOrAFrame) {
       << "of another wall";
 }
 
-/// What the detector makes of views of a wall, with an image of it as reference.
+/// Detections in views of a wall whose reference image is known.
 struct Detected {
   explicit Detected(const PatchedWall& wall) : detector(DetectorParams()) {
     Quadrilateral corners;
@@ -152,7 +152,7 @@ struct Detected {
     cv::line(image, cv::Point2d(a.x(), a.y()), cv::Point2d(b.x(), b.y()), cv::Scalar(40, 40, 40), 2,
              cv::LINE_AA);
   }
-  // Something stands before the right border, from top to bottom.
+  // An occluder covers the right border from top to bottom.
   static void cover(cv::Mat& image, const Quadrilateral& opening) {
     const double x = 0.5 * (opening[1].x() + opening[2].x());
     test::fillQuad(image, test::rectangle(x - 14, opening[1].y() - 40, x + 18, 480), cv::Scalar(120, 60, 90));
@@ -187,7 +187,7 @@ TEST(WindowDetector, AHoleIsFoundBehindRopes) {
   EXPECT_FALSE(detected.look(PatchedWall(4, 0.0, 25.0), 0.3, &opening)) << "in another wall";
 }
 
-// A wall whose pattern repeats itself, with something of the opening's outline on it.
+// A wall with a repetitive pattern and a shape like the opening's outline on it.
 TEST(WindowDetector, WhereTheWallGoesOnWithinThereIsNoHole) {
   PatchedWall wall(3, 0.0, 25.0);
   Detected detected(wall);
@@ -227,7 +227,7 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
   }
 }
 
-// From nearer and nearer beside the window: the frame's border is faint beside the back edge of the reveal.
+// The camera approaches from the side: the frame's border is faint next to the back edge of the reveal.
 TEST(WindowTracker, ThePaintOfAFrameMayGoOnIntoTheReveal) {
   PatchedWall wall(3, 0.07, 25.0);
   Quadrilateral opening;

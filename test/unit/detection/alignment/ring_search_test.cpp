@@ -14,7 +14,7 @@ using geometry::Quadrilateral;
 using test::PatchedWall;
 using test::seenFrom;
 
-// How far a corner of the nearest place is off, of the mean side.
+// Corner error of the nearest place, relative to the mean side.
 double offBy(const std::vector<RingSearch::Place>& places, const Quadrilateral& opening) {
   double least = 10.0;
   for (const auto& place : places)

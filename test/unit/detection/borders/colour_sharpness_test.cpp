@@ -12,8 +12,7 @@ const cv::Scalar kFrame(70, 158, 209), kPaint(58, 137, 184), kReveal(128, 142, 1
 const geometry::Quadrilateral kOpening{
     {{60.5, 50.5}, {199.5, 50.5}, {199.5, 159.5}, {60.5, 159.5}}};  // between two pixels
 
-// A frame whose paint goes on around the corner for two pixels, darker; the reveal, as bright as that paint;
-// and what is behind.
+// A frame with two darker pixels of paint around its corner, a reveal as bright as these, and the background.
 cv::Mat drawn(double noise) {
   cv::Mat image(210, 260, CV_8UC3, kFrame);
   image(cv::Rect(61, 51, 139, 109)).setTo(kPaint);
@@ -29,7 +28,7 @@ cv::Mat drawn(double noise) {
   return image;
 }
 
-// Colour at half of the size, as a compressed image has it.
+// Colour at half the resolution, as in a compressed image.
 cv::Mat withSoftColour(const cv::Mat& image) {
   cv::Mat planes[3], small, converted;
   cv::cvtColor(image, converted, cv::COLOR_BGR2YCrCb);

@@ -1,4 +1,4 @@
-/// Borders far off the axis of a fisheye, where the undistorted image is stretched fourfold and more.
+/// Borders far off the axis of a fisheye, where undistortion stretches the image fourfold or more.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace window_ingress::detection::fisheye_borders_test {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-/// That of a camera of 640 x 512 and 150 degrees, the part with the opening.
+/// The part with the opening of an image of 640 x 512 pixels and 150 degrees.
 geometry::PinholeCamera fisheye() {
   auto camera = geometry::PinholeCamera::fromFieldOfView(480, 440, 1.0);
   camera.model = geometry::LensModel::kEquidistant;
@@ -22,7 +22,7 @@ geometry::PinholeCamera fisheye() {
   return camera;
 }
 
-/// An opening, its right side 60 degrees off the axis and its left one 35, undistorted.
+/// An undistorted opening. Its right side is 60 degrees off the axis, its left side 35 degrees.
 Quadrilateral opening(double shift_px) {
   const geometry::PinholeCamera lens = fisheye();
   Quadrilateral quad = test::turned(test::rectangle(-0.7, -1.1, 1.75, 1.0), 0.05, 0.1);
@@ -30,7 +30,7 @@ Quadrilateral opening(double shift_px) {
   return quad;
 }
 
-/// 4 x 4 points of each pixel, pixel by pixel, undistorted.
+/// 4 x 4 undistorted points in each pixel, pixel by pixel.
 const std::vector<Vector2d>& samples() {
   static const std::vector<Vector2d> all = [] {
     const geometry::PinholeCamera lens = fisheye();
@@ -44,7 +44,7 @@ const std::vector<Vector2d>& samples() {
   return all;
 }
 
-/// What the fisheye shows of it.
+/// The fisheye's image of the opening.
 cv::Mat drawn(const Quadrilateral& ideal, double noise, unsigned seed) {
   cv::Mat image(fisheye().height, fisheye().width, CV_8UC1);
   auto sample = samples().begin();
@@ -58,7 +58,7 @@ cv::Mat drawn(const Quadrilateral& ideal, double noise, unsigned seed) {
   return image;
 }
 
-/// How far a point of the ideal image lies beside a side of it, in pixels of the image as it came.
+/// Distance of a point of the ideal image from a side, in pixels of the distorted image.
 double besideSide(const Quadrilateral& ideal, int side, const Vector2d& point) {
   const Vector2d from = ideal[side], span = ideal[(side + 1) % 4] - from;
   const Vector2d foot = from + span * ((point - from).dot(span) / span.squaredNorm());
@@ -79,11 +79,11 @@ TEST(FisheyeBorders, CornersAreLocatedToATenthOfAPixelOfTheImage) {
   }
 }
 
-// The window comes nearer by as much as it does between two images at a third of a metre.
+// The window grows by as much as between two images at a distance of a third of a metre.
 TEST(FisheyeBorders, ABorder60DegreesOffTheAxisIsFollowedAndItsSpreadIsHonest) {
   const geometry::PinholeCamera lens = fisheye();
   const int side = geometry::kRight, trials = 24;
-  double squares_px = 0.0, squares = 0.0;  // of errors, and of errors over what they are said to be
+  double squares_px = 0.0, squares = 0.0;  // of errors; of errors over stated sigmas
   for (int i = 0; i < trials; ++i) {
     const Quadrilateral before = opening(0.0), now = opening(18.0 + 0.37 * i);
     const auto stretch = [&](const Quadrilateral& quad) { return Stretch{quad[side], quad[(side + 1) % 4]}; };

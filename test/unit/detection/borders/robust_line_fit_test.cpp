@@ -9,7 +9,7 @@
 
 namespace window_ingress::detection::robust_line_fit_test {
 
-/// Points along a line with noise across it and every n-th one far off.
+/// Points along a line with noise across it; every n-th point is an outlier.
 struct Sample {
   Sample(const OffsetLine& truth, double sigma_px, int outlier_every, unsigned seed) {
     std::mt19937 random(seed);

@@ -19,7 +19,7 @@ struct Strip {
   Vector3f outside = kFrame, reveal = kReveal, within = kRoom;
 };
 
-// Mean colours across a blurred strip, channel by channel.
+// Mean colours across a blurred strip, by channel.
 std::vector<float> across(const Strip& strip, int channels = 3, float noise = 0.0F, unsigned seed = 1) {
   std::mt19937 engine(seed);
   std::normal_distribution<float> draw(0.0F, noise > 0.0F ? noise : 1.0F);
@@ -64,7 +64,7 @@ TEST(TwoStepEdge, TheFrontOfAStripIsFoundToATenthOfAPixel) {
       ++unnoticed;
       continue;
     }
-    // A strip thinner than the blur is known by its colour alone.
+    // Only its colour reveals a strip that is thinner than the blur.
     const double limit_px = strip.apart > 1.2 ? 0.1 : strip.apart;
     EXPECT_NEAR(edge.front, strip.front, limit_px + 2.0 * edge.sigma_px) << strip.apart;
   }

@@ -68,7 +68,7 @@ cv::Mat brightAndDarkPatches() {
   return image;
 }
 
-// A ring that differs in hue only.
+// A ring that differs only in hue.
 cv::Mat hueAmongPatches(const geometry::Quadrilateral& opening) {
   cv::Mat image = brightAndDarkPatches(), ring(image.size(), CV_8UC1, cv::Scalar(0));
   test::fillQuad(ring, test::grown(opening, 24.0), cv::Scalar(255));
@@ -102,8 +102,7 @@ TEST(CandidateSearch, ABlobIsFoundWhereItsEdgesAreTooSoft) {
   EXPECT_EQ(rivals[0].candidate.source, CandidateSource::kBlob);
 }
 
-// A thin, blurred frame of one paint before bright and dark patches, in dim light that differs from place to
-// place.
+// A thin, blurred frame of one colour in front of bright and dark patches, in dim and uneven light.
 cv::Mat thinPaintInPatchyLight(const geometry::Quadrilateral& opening, const cv::Scalar& paint) {
   cv::Mat image = brightAndDarkPatches(), ring(image.size(), CV_8UC1, cv::Scalar(0)), light, painted;
   test::fillQuad(ring, test::grown(opening, 5.0), cv::Scalar(255));

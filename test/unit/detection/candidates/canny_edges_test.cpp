@@ -16,7 +16,7 @@ cv::Mat noise(int rows, int cols, int type, unsigned seed) {
   return image;
 }
 
-/// Sobel by OpenCV; of the channels the first with the largest |dx| + |dy|.
+/// Sobel by OpenCV; uses the first channel with the largest |dx| + |dy|.
 void byOpenCv(const cv::Mat& image, cv::Mat& dx, cv::Mat& dy) {
   const int channels = image.channels();
   cv::Mat all_dx, all_dy;

@@ -11,7 +11,7 @@
 
 namespace window_ingress::detection::hough_segments_test {
 
-/// Edges to segments, as the search does it.
+/// Converts edges to segments as the search does.
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};

@@ -23,13 +23,14 @@ bool holds(const SegmentQuads::Result& result, const geometry::Quadrilateral& qu
                      [&](const Candidate& c) { return test::worstCorner(c.quad, quad) < 0.01; });
 }
 
-/// The sides of a rectangle, and what their ends lack of its corners, as Candidate::closure counts it.
+/// The sides of a rectangle, and the distances of their ends from its corners, as Candidate::closure counts
+/// them.
 struct Sides {
   std::vector<Segment> segments;
   double closure = 1.0;
 };
 
-// Each end stops short of its corner by some pixels, or runs beyond it.
+// Each end stops some pixels before its corner, or runs beyond it.
 Sides looseSides(const geometry::Quadrilateral& quad, std::mt19937& random) {
   std::uniform_real_distribution<double> short_px(-25.0, 15.0);
   std::bernoulli_distribution turned(0.5);

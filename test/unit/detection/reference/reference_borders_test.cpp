@@ -11,8 +11,7 @@ namespace window_ingress::detection::reference_borders_test {
 
 using geometry::Quadrilateral;
 
-/// A coloured frame in a wall, dark within; `reveal_px` shows a strip of the wall's thickness inside on the
-/// left.
+/// A coloured frame in a wall, dark inside. `reveal_px` adds a strip of the reveal inside on the left.
 struct Facade {
   Quadrilateral opening = test::rectangle(220, 140, 420, 320);
   double frame_px = 14.0;

@@ -10,7 +10,7 @@ const geometry::Quadrilateral kOpening = test::rectangle(200, 150, 440, 350);
 
 const cv::Scalar kWall(136, 152, 161), kOrange(16, 78, 185);
 
-/// Has learned an opening in a wall with or without a frame.
+/// A judge that has learned an opening in a wall, with or without a frame.
 ReferenceJudge judgeOf(bool framed, const cv::Scalar& paint = kOrange) {
   cv::Mat image(480, 640, CV_8UC3, kWall);
   if (framed) test::fillQuad(image, test::rectangle(185, 135, 455, 365), paint);
@@ -60,7 +60,7 @@ TEST(ReferenceJudge, AFrameAloneTellsOnlyWhereItsColoursAreItsOwn) {
       << "nothing is compared";
 }
 
-// In the light of another hour a frame's contrasts are others; a frame in another paint correlates as well.
+// Another time of day changes a frame's contrasts. A frame in another paint correlates as well.
 TEST(ReferenceJudge, CorrelationAloneDecidesWhereNoFramesColoursTell) {
   RingMatch match;
   match.correlation = 0.9, match.faithful = 0.6, match.faithful_uncovered = 0.8;
@@ -78,7 +78,7 @@ TEST(ReferenceJudge, CorrelationAloneDecidesWhereNoFramesColoursTell) {
   EXPECT_EQ(judgeOf(false).bordersNeeded(match), 0);
 }
 
-// A taller window in the same frame, of which three sides are taken for those of the target.
+// A taller window in the same frame, of which three sides are mistaken for the target's.
 TEST(ReferenceJudge, AFrameThatGoesOnBeyondACornerIsAnother) {
   ReferenceJudge judge = judgeOf(true);
   cv::Mat tall(480, 640, CV_8UC3, kWall), right = tall.clone();
@@ -107,7 +107,7 @@ TEST(ReferenceJudge, WhereSomethingStandsBeforeItMoreMustFit) {
   EXPECT_EQ(frame.bordersNeeded(match), 4) << "a poster has three";
 }
 
-// A blind in the colour of the wall, drawn but for a slit at the left.
+// A blind in the colour of the wall is drawn, but for a slit at the left.
 TEST(ReferenceJudge, AnOpeningShowsWhereItShowsInTheReference) {
   cv::Mat closed(480, 640, CV_8UC3, kWall), slit = closed.clone();
   test::fillQuad(slit, test::rectangle(200, 150, 220, 350), cv::Scalar(70, 72, 70));

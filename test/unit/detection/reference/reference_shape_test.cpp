@@ -23,7 +23,7 @@ Covariances spread(double sigma_px) {
   return covariance;
 }
 
-/// A window of 1.2 m x 1.0 m unless said, with a frame, seen from somewhere.
+/// A framed window of 1.2 m x 1.0 m unless given otherwise, seen from an arbitrary place.
 struct View {
   double width_m = 1.2, height_m = 1.0, frame_m = 0.07;
   double distance_m = 4.0, yaw_rad = 0.0, pitch_rad = 0.0;
@@ -70,7 +70,7 @@ ReferenceShape learned() {
 TEST(RectangleMisfit, IsChiOfTwoDegreesOfFreedomForTheRightAspect) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal(0.0, 0.4);
-  const Covariances known = spread(std::sqrt(0.4 * 0.4 - 0.3 * 0.3));  // to which 0.3 px are added
+  const Covariances known = spread(std::sqrt(0.4 * 0.4 - 0.3 * 0.3));  // 0.3 px are added to this
   double squares = 0.0;
   const int trials = 200;
   for (int i = 0; i < trials; ++i) {

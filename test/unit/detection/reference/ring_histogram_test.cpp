@@ -16,7 +16,7 @@ const auto kOpening = test::rectangle(100, 80, 220, 170);
 const cv::Scalar kOrange(50, 140, 215), kWall(150, 160, 170);
 constexpr int kFew = 40;
 
-// Noise round a frame of 6 px and a wall.
+// Noise around a frame of 6 px and a wall.
 cv::Mat noisyWindow(std::uint64_t seed, double sigma) {
   cv::Mat image(240, 320, CV_8UC3, kWall);
   cv::rectangle(image, {94, 74}, {226, 176}, kOrange, cv::FILLED);
@@ -69,7 +69,7 @@ TEST(RingMeans, PaintIsTheHueOfAFrameThatHasOneWhateverItsLight) {
   EXPECT_FALSE(ring.paint()) << "that of the wall";
 }
 
-// A ring of few pixels drawn from the same colours is not further away than one of many.
+// A ring of few pixels is no further away than one of many pixels of the same colours.
 TEST(RingHistogram, FewPixelsOfTheSameColoursAreNotFurther) {
   cv::Mat colours(600, 800, CV_8UC3);
   cv::RNG random(7);
@@ -144,7 +144,7 @@ TEST(RingHistogram, BadQuadrilateralsHaveNoAnswer) {
   EXPECT_FALSE(ringColours(cv::Mat(), kOpening, kFew));
 }
 
-// Steep perspectives, partly outside and beyond the horizon: never a pixel outside the image.
+// Steep perspectives, partly outside the image and beyond the horizon: no pixel outside the image is read.
 TEST(RingSamples, StayWithinTheImage) {
   cv::RNG random(3);
   const cv::Mat image = noisyWindow(1, 5.0);

@@ -1,4 +1,4 @@
-/// What the tracker makes of a place at which something else expects the target.
+/// How the tracker uses the place at which another part expects the target.
 #include <gtest/gtest.h>
 
 #include "flat_facade.hpp"
@@ -10,7 +10,7 @@ using test::FlatFacade;
 
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(480, 360, 1.2);
 
-/// Three equal windows, seen by a camera that stands still before the middle one.
+/// Three equal windows, seen by a camera that stands still in front of the middle one.
 struct Row {
   FlatFacade wall{3, 1.7, 1.2, 1.0, 0.07};
   FlatFacade::Camera from{{1.7, 0.0, -5.0}};

@@ -1,4 +1,4 @@
-/// What the tracker is made of, part by part.
+/// The parts of the tracker, one by one.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ using geometry::Quadrilateral;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Horizontal bands from the top, each a colour from this row on.
+/// Horizontal bands from the top; each colour begins at its row.
 cv::Mat bands(const std::vector<std::pair<double, cv::Scalar>>& from, double noise = 1.0) {
   cv::Mat image(200, 300, CV_8UC3, from.front().second);
   for (const auto& [row, colour] : from) test::fillQuad(image, test::rectangle(-5, row, 305, 205), colour);
@@ -106,7 +106,7 @@ TEST(EdgeTemplate, KnowsTheInnerFromTheOuterBorderWhereverTheyLie) {
 Stretch stretchAt(double row) { return {Vector2d(40, row), Vector2d(260, row)}; }
 Line lineAt(double row, double sigma_px) { return {Vector2d(150, row), Vector2d(0, -1), sigma_px, 1e-4}; }
 
-// The front edge of a reveal does not show; its back edge comes nearer, and the border with it.
+// The front edge of a reveal is invisible. Its back edge comes nearer, and with it the border.
 TEST(EdgeTracker, AnEdgeBesideTheBorderIsReportedAsTheBorder) {
   const auto image = [](double row) { return bands({{0, kWall}, {row, kHole}}); };
   EdgeTracker tracker;
@@ -132,7 +132,7 @@ TEST(EdgeTracker, WhereABorderShowsNoEdgeTheNearestOneIsFollowedForIt) {
   EXPECT_NEAR(followed.line.point.y(), 97.0, 0.2);
 }
 
-// Borders found 5 px above the top edge that is followed, with next to nothing known of them otherwise.
+// Borders found 5 px above the tracked top edge, with almost no other information about them.
 TEST(QuadTracker, WhereTheImageEndsBesideASideItsOwnEdgeIsBelieved) {
   for (const double top : {10.0, 70.0}) {
     test::DrawnWindow drawn;

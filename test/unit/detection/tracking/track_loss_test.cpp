@@ -18,7 +18,7 @@ test::DrawnWindow windowOf(int frame) {
   return drawn;
 }
 
-// An attitude that is wrong foretells the window elsewhere; it is searched, and found where it was.
+// A wrong attitude predicts the window elsewhere. The search finds the window in its old place.
 TEST(TrackLoss, ALoopOfMixedBordersThatLiesNearerToAWrongPredictionIsNotTaken) {
   for (double wrong_rad = 0.124; wrong_rad < 0.15; wrong_rad += 0.004) {
     WindowTracker tracker{DetectorParams()};

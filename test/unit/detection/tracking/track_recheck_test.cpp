@@ -14,7 +14,7 @@ Quadrilateral squareAt(double x, double y, double size) {
   return {Vector2d(x, y), Vector2d(x + size, y), Vector2d(x + size, y + size), Vector2d(x, y + size)};
 }
 
-// Asks as often as the confirmation wants to; true once the answer is preferred.
+// Rechecks whenever a recheck is due. \return whether the search's result is preferred
 bool preferred(TrackRecheck& confirmation, int frames, const Quadrilateral& searched) {
   bool taken = false;
   for (int i = 0; i < frames && !taken; ++i)

@@ -37,7 +37,7 @@ TrackInput viewOf(const FlatFacade& wall, const FlatFacade::Camera& from, int fr
   return input;
 }
 
-/// The frame was followed, no search was needed.
+/// The window was tracked without a search.
 bool followed(const WindowTracker& tracker) { return tracker.tracking() && tracker.trace().segments == 0; }
 
 DrawnWindow windowAt(double x, double y, double half, double frame_px, int frame) {
@@ -71,7 +71,7 @@ TEST(WindowTracker, FollowsAMovingWindowToATenthOfAPixelUnderOneNumber) {
   EXPECT_LT(std::sqrt(squares), 0.05) << "RMS a coordinate [px]";
 }
 
-// The frame is as wide as the window jumps: the outer border comes to lie where the inner one was.
+// The frame is as wide as the window's jump: the outer border moves to the inner border's former place.
 TEST(WindowTracker, DoesNotSlipToTheOtherBorderOfItsFrame) {
   WindowTracker tracker{DetectorParams()};
   for (int i = 0; i < 40; ++i) {
@@ -113,7 +113,7 @@ TEST(WindowTracker, ASideThatIsHiddenIsNoEdgeAndTheRestGoesOn) {
   EXPECT_LT((window->corners[geometry::kTopLeft] - drawn.opening[0]).norm(), 0.3);
 }
 
-// The side is too near to the image's edge to be learnt when the window is found.
+// The side is too near to the image's edge to be learned when the window is found.
 TEST(WindowTracker, ASideThatComesIntoViewLaterIsFollowedToo) {
   WindowTracker tracker{DetectorParams()};
   int whole = 0;
@@ -127,7 +127,7 @@ TEST(WindowTracker, ASideThatComesIntoViewLaterIsFollowedToo) {
   EXPECT_GE(whole, 15);
 }
 
-/// Largest distance of the ends of the visible edges from the true sides [px].
+/// Largest distance of the visible edges' ends from the true sides [px].
 double worstEdge(const WindowObservation& window, const Quadrilateral& truth) {
   double worst = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -171,7 +171,7 @@ TEST(WindowTracker, SidesThatLeaveTheViewRemainEdgesAndNoCornerIsInvented) {
   EXPECT_LT(last_m, 0.55) << "seen until near the plane";
 }
 
-/// Which window of the facade an observation shows, or -1.
+/// Index of the façade's window in this observation, or -1.
 int shown(const FlatFacade& wall, const FlatFacade::Camera& from, const WindowObservation& window) {
   for (int k = 0; k < wall.count(); ++k) {
     const auto truth = wall.corners(k, from, camera());
@@ -180,7 +180,7 @@ int shown(const FlatFacade& wall, const FlatFacade::Camera& from, const WindowOb
   return -1;
 }
 
-// A row of equal windows; the camera moves past them and turns, and now and then images are lost.
+// A row of equal windows. The camera moves past them and turns, and some images are lost.
 TEST(WindowTracker, InARowOfEqualWindowsANumberNeverChangesItsWindow) {
   const FlatFacade wall(3, 1.5, 1.0, 0.9, 0.06);
   for (int seed = 1; seed <= 4; ++seed) {
@@ -257,7 +257,7 @@ TEST(WindowTracker, TimeSizeAndCalibrationStartAnew) {
   EXPECT_EQ(numberAt(64, nullptr, larger), 8u) << "another size";
 }
 
-/// A window of this paint, a little further on in each frame.
+/// A window of this paint; it moves a little in each frame.
 cv::Mat painted(const cv::Scalar& paint, int frame, DrawnWindow* drawn = nullptr) {
   DrawnWindow window = windowAt(150 + 10 * std::sin(0.05 * frame), 115, 42, 6, frame);
   window.frame = paint;
