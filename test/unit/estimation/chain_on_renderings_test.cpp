@@ -1,4 +1,4 @@
-/// Renderer, detector and estimator together: one image, one pose, against the truth of the world.
+/// Renderer, detector and estimator together: one image, one pose, compared with the world's truth.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,4 +1,5 @@
-/// Statistics of the single-image estimator against its own claims and against the Cramér-Rao bound.
+/// Statistics of the single-image estimator, compared with its stated covariance and with the Cramér-Rao
+/// bound.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -49,7 +50,7 @@ Spread run(const Cell& cell, int draws, See&& see) {
 
 TEST(MonteCarlo, CornersReachTheBound) {
   std::mt19937 random(5);
-  // Bounds for 1 px; at a third of that the branches are apart and the errors linear.
+  // Bounds for 1 px. At a third of 1 px the two solutions are separate and the errors linear.
   for (const Cell cell : {Cell{2, 0, 0.83}, Cell{2, 10, 0.73}, Cell{2, 30, 0.43}, Cell{4, 10, 2.3},
                           Cell{4, 30, 1.0}, Cell{6, 30, 1.6}, Cell{8, 30, 2.1}}) {
     const double sigma = 0.1;

@@ -1,4 +1,4 @@
-/// Poses from what is left of a window near its plane: four borders without a corner, and no fewer.
+/// Poses from a partly visible window near its plane: four borders without corners, but no fewer.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -11,7 +11,7 @@ using namespace fixtures;
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The stretches of the borders between `from` and `to` of their lengths, corners unseen.
+/// The parts of the borders between the fractions `from` and `to` of their length, without corners.
 detection::WindowObservation partly(const detection::WindowObservation& whole,
                                     const std::array<bool, 4>& seen, double from = 0.2, double to = 0.8) {
   auto window = whole;

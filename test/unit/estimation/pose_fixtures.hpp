@@ -24,13 +24,14 @@ inline geometry::PinholeCamera distortedCamera() {
   return camera;
 }
 
-/// A window turned by `yaw` about the vertical, its centre straight ahead (unless said) of a level camera.
+/// A window turned by `yaw` about the vertical; its centre is straight ahead of a level camera unless given
+/// otherwise.
 inline Eigen::Isometry3d view(double distance_m, double yaw_rad, double right_m = 0.0, double down_m = 0.0) {
   return geometry::makePose(geometry::R_optical_flu() * geometry::yawRotation(yaw_rad),
                             {right_m, down_m, distance_m});
 }
 
-/// What a perfect detector of corners sees, with the given independent spread stated.
+/// Corners from a perfect detector, with this stated spread, independent for each corner.
 inline detection::WindowObservation cornersSeen(const geometry::PinholeCamera& camera,
                                                 const Eigen::Isometry3d& T_camera_window, double sigma_px,
                                                 const geometry::OpeningSize& opening = kOpening) {
@@ -47,8 +48,8 @@ void disturb(detection::WindowObservation& window, double sigma_px, Random& rand
   for (auto& corner : window.corners) corner += Eigen::Vector2d(noise(random), noise(random));
 }
 
-/// What a detector that fits borders sees: four disturbed lines, one sample a pixel along them, and their
-/// crossings.
+/// Corners as a detector that fits borders finds them: four disturbed lines with one sample a pixel, and
+/// their crossings.
 template <typename Random>
 detection::WindowObservation bordersSeen(const geometry::PinholeCamera& camera,
                                          const Eigen::Isometry3d& T_camera_window, double sample_sigma_px,
@@ -73,7 +74,7 @@ detection::WindowObservation bordersSeen(const geometry::PinholeCamera& camera,
   return window;
 }
 
-/// Estimator that believes the stated covariances alone.
+/// An estimator that uses only the stated covariances.
 inline PoseParams trustingParams() {
   PoseParams params;
   params.systematic_sigma_px = 0.001;

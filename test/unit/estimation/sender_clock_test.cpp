@@ -18,7 +18,7 @@ TEST(SenderClock, LeavesStampsThatAreNotAheadAsTheyAre) {
   EXPECT_EQ(clock.aheadSec(), 0.0);
 }
 
-// As PX4's behind MAVROS: 84 to 164 ms ahead of their arrival.
+// Like the stamps of PX4 behind MAVROS: 84 to 164 ms ahead of their arrival.
 TEST(SenderClock, TakesBackWhatIsAheadWithoutTheJitterOfTheWay) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> way_sec(0.01, 0.09);

@@ -6,7 +6,8 @@
 
 namespace window_ingress::estimation::target_among_windows_test {
 
-/// A vehicle that stands before a row of windows and sways a little, and a detector that follows one of them.
+/// A vehicle that stands in front of a row of windows and sways a little, with a detector that tracks one of
+/// them.
 struct Watch {
   test::WindowRow row;
   TargetEstimator tracker{estimation::PoseParams(), estimation::FilterParams(), TargetEstimatorParams()};
@@ -67,7 +68,7 @@ TEST(TargetAmongWindows, TheOneInUseIsGivenUpAndTheNextTakenWhereThatIsAllowed) 
     const std::uint32_t id = watch.tracker.target(watch.now_sec)->window_id;
     watch.tracker.heed(id, {}, next_one);
     EXPECT_EQ(watch.tracker.facade().targetId(), id);
-    for (int n = 0; n < 3; ++n) watch.tracker.heed(0, {id}, next_one);  // said again and again
+    for (int n = 0; n < 3; ++n) watch.tracker.heed(0, {id}, next_one);  // repeated messages
     EXPECT_EQ(watch.tracker.facade().targetId() != 0, next_one);
     EXPECT_NE(watch.tracker.facade().targetId(), id);
     EXPECT_EQ(watch.tracker.target(watch.now_sec).has_value(), !next_one);

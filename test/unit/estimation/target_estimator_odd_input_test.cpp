@@ -17,7 +17,7 @@ const Eigen::Isometry3d kMounting =
     geometry::makePose(geometry::R_optical_flu().transpose(), {0.1, 0.0, 0.02});
 const Eigen::Isometry3d kWindow = geometry::makePose(geometry::yawRotation(0.2), {5.0, 0.3, 1.4});
 
-/// Draws numbers that no sensor should send, and spoils what it is given with them.
+/// Draws numbers that no sensor should send, and puts them into inputs.
 class Mischief {
  public:
   explicit Mischief(unsigned seed) : random_(seed) {}
@@ -124,7 +124,7 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
     TargetEstimator tracker(paramsOf(seed), estimation::FilterParams(), TargetEstimatorParams());
     double now = 0.0;
     for (int i = 0; i < 240; ++i, now += 0.033) {
-      const bool calm = i >= 150;  // then all is well again
+      const bool calm = i >= 150;  // from here on all inputs are valid
       const auto odd = [&](double probability) { return !calm && mischief.happens(probability); };
       const double y = 0.4 * std::sin(now);
       const Eigen::Isometry3d truth = geometry::makePose(geometry::yawRotation(0.05), {0.2 * now, y, 1.2});

@@ -18,7 +18,7 @@ Eigen::Isometry3d vehicleAt(double y_m) {
   return geometry::makePose(geometry::yawRotation(0.1), {0.0, y_m, 1.2});
 }
 
-/// The window, seen exactly, from a vehicle at this place.
+/// The window, observed exactly by a vehicle at this place.
 detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, double stamp_sec) {
   detection::WindowObservation window;
   const Eigen::Isometry3d T_camera_window = (T_odom_base * kMounting).inverse() * kWindow;
@@ -60,7 +60,8 @@ TEST(TargetEstimator, TheMountingIsUnverifiedUntilItWasWatchedOrIsSaidToBeSure) 
   EXPECT_EQ(TargetEstimator(PoseParams(), sure, TargetEstimatorParams()).unverified(), "");
 }
 
-// As in a rehearsal, whose odometry is made from the window and lags: it tells nothing of the window's size.
+// Like the odometry of a rehearsal, which lags and is computed from the window: it says nothing about the
+// window's size.
 TEST(TargetEstimator, WhereTheMountingIsSaidToBeSureTheWayFlownDoesNotJudgeTheSizeEither) {
   FilterParams sure;
   sure.mounting_yaw_sigma_rad = 0.001;
@@ -105,7 +106,7 @@ TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
   EXPECT_FALSE(track.target(0.3));
 }
 
-/// 2 m sideways past the window, each image as it would be; the mounting told may be another.
+/// Flies 2 m sideways past the window with exact images; the stated mounting may be wrong.
 TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEstimatorParams& params,
                               const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
   TargetEstimator track(pose, estimation::FilterParams(), params);
@@ -146,7 +147,7 @@ TEST(TargetEstimator, SaysThatWidthAndHeightDoNotFit) {
 }
 
 TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
-  estimation::PoseParams twice;  // looking for one twice as large
+  estimation::PoseParams twice;  // expects a window twice as large
   twice.opening_width_m = 2.4;
   twice.opening_height_m = 2.0;
   auto track = flownSideways(twice, TargetEstimatorParams(), kMounting);
@@ -278,7 +279,7 @@ TEST(TargetEstimator, AHeadingThatJumpsStartsAnew) {
   EXPECT_FALSE(track.target(1.06));
 }
 
-/// Noses down by this much.
+/// Pitch down by this angle.
 Eigen::Isometry3d pitched(double rad) {
   Eigen::Isometry3d T = vehicleAt(0.0);
   T.rotate(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()));

@@ -24,7 +24,7 @@ TEST(MotionModel, NothingHappensToWhatStandsOrWithoutTime) {
   EXPECT_TRUE(MotionModel{}.stands());
 }
 
-// Two whiles in a row are one.
+// Two steps in a row equal one step of their total length.
 TEST(MotionModel, IsAMarkovProcess) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> span(0.0001, 3.0), speed(0.01, 0.3), lasts(0.3, 5.0);
@@ -51,7 +51,7 @@ TEST(MotionModel, ForgetsInTheLongRunAndGoesOnInTheShort) {
   EXPECT_NEAR(model.over(1e-4).place_variance, 2.0 / 3.0 * 0.04 / 2.0 * 1e-12, 1e-16);
 }
 
-/// A camera that comes nearer at 0.5 m/s, 30 images a second, and a window that swings along its wall.
+/// A camera approaches at 0.5 m/s with 30 images a second, and a window swings along its wall.
 struct Approach {
   double amplitude_m = 0.1, period_sec = 4.0;
   std::mt19937 random{3};
@@ -63,7 +63,7 @@ struct Approach {
   static FilterParams params(double target_speed_mps) {
     FilterParams params;
     params.target_speed_mps = target_speed_mps;
-    params.mounting_yaw_sigma_rad = 0.005;  // what is not known of the heading would hide the rest
+    params.mounting_yaw_sigma_rad = 0.005;  // an unknown heading would hide the rest
     return params;
   }
 
@@ -88,7 +88,8 @@ struct Errors {
   int refused = 0;
 };
 
-/// RMS of place across and of velocity after the first second, and their squares over the variances said.
+/// RMS errors of lateral position and velocity after the first second; mean squares over the stated
+/// variances.
 Errors errorsOf(Approach flight) {
   Errors out;
   int count = 0;
@@ -121,7 +122,7 @@ TEST(MovingTarget, IsFollowedWithItsVelocityAndAnHonestCovariance) {
     EXPECT_LT(told.velocity_mps, 0.06);
     EXPECT_LT(told.squares, 4.0);
     EXPECT_LT(told.velocity_squares, 4.0);
-    EXPECT_GT(untold.place_m, 2.0 * told.place_m);  // lags behind, and does not know
+    EXPECT_GT(untold.place_m, 2.0 * told.place_m);  // lags, with a variance that is too small
     EXPECT_GT(untold.squares, 3.0 * told.squares);
   }
 }

@@ -14,14 +14,14 @@ using namespace fixtures;
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A vehicle with a camera in front of an upright window, and what its sensors say.
+/// A vehicle with a camera in front of an upright window, and its sensor data.
 struct Flight {
   Eigen::Isometry3d T_world_window = geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 1.5});
   double border_sigma_px = 0.5;  // of each sample along a border
   Eigen::Matrix<double, 8, 1> bias_px = Eigen::Matrix<double, 8, 1>::Zero();
   Eigen::Vector2d attitude_bias_rad = Eigen::Vector2d::Zero();  // pitch, roll of the camera
-  double heading_error_rad = 0.0;                               // of odometry, beside its positions
-  bool noisy_odometry = false;  // drifting and jittering as `FilterParams` has it
+  double heading_error_rad = 0.0;                               // of odometry, against its positions
+  bool noisy_odometry = false;                                  // drift and jitter as in `FilterParams`
   Eigen::Vector3d drift = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
   std::mt19937 random;
@@ -135,8 +135,8 @@ TEST(WindowFilter, SidewaysMotionResolvesAnAmbiguousStart) {
   EXPECT_GT(started_wrong, 5);
 }
 
-// An autopilot's compass is off by some degrees beside its positions. Unlearned, the vehicle is carried off
-// the axis by that angle over all of the way on which it sees nothing.
+// An autopilot's compass is off by some degrees relative to the axes of its positions. If this is not
+// learned, the vehicle leaves the axis by that angle while it sees no window.
 TEST(WindowFilter, AHeadingThatIsOffBesideThePositionsIsLearned) {
   constexpr int kImages = 180;
   double squares = 0.0, errors_rad = 0.0;
@@ -163,8 +163,7 @@ TEST(WindowFilter, AHeadingThatIsOffBesideThePositionsIsLearned) {
   EXPECT_LT(squares, 3.0);
 }
 
-// A heading that jumps is no error that lasts: to learn half of it would be worse than to believe all or
-// none.
+// A heading jump is no lasting error. Learning half of it would be worse than accepting all or none.
 TEST(WindowFilter, AfterAJumpTheHeadingIsNotLearnedAnew) {
   Flight flight(17);
   double stamp = 1.0;
@@ -182,8 +181,8 @@ TEST(WindowFilter, AfterAJumpTheHeadingIsNotLearnedAnew) {
   EXPECT_GT(std::sqrt(flight.filter.state(stamp)->camera_turn.covariance(1, 1)), 0.02);
 }
 
-// What was not known of the heading when odometry jumped is not known after it, either: it counts, and is
-// learned once odometry no longer turns.
+// A heading error that was unknown before an odometry jump stays unknown after it. It counts in the
+// covariance and is learned once the odometry no longer turns.
 TEST(WindowFilter, AHeadingThatWasNotKnownBeforeAJumpCountsAndIsLearnedLater) {
   double squares = 0.0, errors_rad = 0.0;
   const int runs = 40;
@@ -208,12 +207,11 @@ TEST(WindowFilter, AHeadingThatWasNotKnownBeforeAJumpCountsAndIsLearnedLater) {
     errors_rad += std::abs(flight.yawError(stamp)) / runs;
   }
   std::printf("soon after: mean square of its place %.2f; in the end off by %.3f rad\n", squares, errors_rad);
-  EXPECT_LT(squares, 6.0);  // two standard deviations of the heading, drawn each time
+  EXPECT_LT(squares, 6.0);  // each run draws a heading of two standard deviations
   EXPECT_LT(errors_rad, 0.03);
 }
 
-// An error of the heading turns the window about the camera: on which side of its axis that is stays as
-// clear.
+// A heading error turns the window about the camera. The sign of its yaw stays as clear as before.
 TEST(WindowFilter, AnUnknownHeadingHidesNoSign) {
   int trusted = 0, wrong = 0;
   const int runs = 60;
@@ -250,8 +248,8 @@ TEST(WindowFilter, HoveringWithLastingBiasFakesNoTrust) {
   EXPECT_LE(trusted_wrong, 1);
 }
 
-// The bias of the corners lasts all the way here, longer than the filter assumes: it may be a little too sure
-// of yaw.
+// The corners' bias lasts during the whole approach, longer than the filter assumes. So the filter may be
+// slightly overconfident in yaw.
 TEST(WindowFilter, CovarianceIsConsistentUnderDriftAndBias) {
   double position_squares = 0, yaw_squares = 0;
   const int runs = 100;
@@ -296,7 +294,8 @@ TEST(WindowFilter, OutliersAreGatedAndALastingJumpRestarts) {
   EXPECT_LE(flight.filter.state(3.6)->updates, 6);
 }
 
-// Whatever made the filter certain of the wrong side: hovering must not make it deaf to what it sees.
+// The filter is certain of the wrong sign for an unknown reason. While the vehicle hovers it must still
+// accept what it sees.
 TEST(WindowFilter, ACertainBeliefInTheWrongSideIsGivenUp) {
   for (const double distance : {3.0, 4.0, 6.0}) {
     Flight flight(10);
@@ -317,7 +316,7 @@ TEST(WindowFilter, UsesABorderCutWindow) {
     const auto T = Flight::cameraAt({-3.0 + 0.02 * i, 0.2, 1.5}, 0.0);
     auto window = flight.see(T, 1.0 + i / 30.0);
     window.edges[geometry::kBottom].visible = false;
-    window.corners[2].y() -= 40;  // cut: the corners there are not the window's
+    window.corners[2].y() -= 40;  // cut by the image's edge: these corners are not the window's
     window.corners[3].y() -= 40;
     EXPECT_TRUE(flight.filter.update(std::nullopt, window, camera(), T)) << i;
   }

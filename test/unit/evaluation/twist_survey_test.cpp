@@ -103,7 +103,7 @@ struct Count {
   double latest_m = 0.0;
 };
 
-/// \param name what must be in the alarm's text
+/// \param name text that the alarm must contain
 Count count(const Meaning& meaning, double heading_rad, bool turns, const char* name, unsigned first_seed,
             unsigned flights, bool bad) {
   std::mt19937 random(first_seed);
@@ -151,7 +151,7 @@ TEST(TwistSurvey, WrongAxesAreNamedWhateverTheOdometry) {
         const bool must_be = heading >= 0.5 || (heading >= 0.4 && !bad);
         EXPECT_GE(found.alarms, must_be ? (bad ? 19 : 20) : 0) << heading << ' ' << bad;
         EXPECT_GE(found.named, found.lasting - 2)
-            << heading << ' ' << bad;  // near pi: as well the opposite sign
+            << heading << ' ' << bad;  // near pi the opposite sign may fit, too
         EXPECT_LE(found.alarms, heading < 0.2 ? 2 : 20) << "both are nearly the same";
       }
     }

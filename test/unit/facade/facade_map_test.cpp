@@ -8,7 +8,7 @@ namespace window_ingress::facade::facade_map_test {
 
 const Wall kWall{{0.0, 0.0, 1.5}, 0.0, 0.02, 0.01};
 
-/// A way along the row, looking at it, with or without the wall being known.
+/// A path along the row, looking at it, with or without a known wall.
 void walkAlong(FacadeMap& map, const test::WindowRow& row, const std::optional<Wall>& wall, double begin_sec,
                unsigned seed) {
   std::mt19937 random(seed);
@@ -45,7 +45,7 @@ TEST(FacadeMap, FindsAWindowAgainWhereItWasAfterALossAlthoughOdometryDrifted) {
   FacadeMap map{FacadeParams()};
   walkAlong(map, row, kWall, 10.0, 3);
   const auto before = map.windows();
-  for (int n = 0; n < 4; ++n) {  // ten seconds later and 6 cm beside
+  for (int n = 0; n < 4; ++n) {  // ten seconds later and 6 cm aside
     auto look = row.look(26.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
     look.from.T_odom_camera.translation() += Eigen::Vector3d(0.0, 0.06, 0.0);
     map.see(look, kWall, row.size);
@@ -96,7 +96,7 @@ TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySid
   test::WindowRow row;
   row.count = 1;
   FacadeMap map{FacadeParams()};
-  // As far away as a window twice as large would be; then the wall is known.
+  // At first the window is placed as far away as a window of three times its size; later the wall is known.
   for (int n = 0; n < 5; ++n)
     map.see(row.look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt, {3.6, 3.0});
   for (int n = 0; n < 40; ++n)
@@ -110,7 +110,8 @@ TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySid
   EXPECT_EQ(confirmed(near), 2);
 }
 
-// 0 and 1 are seen side by side, later 2 alone. 2 turns out to be 1, and then to stand where 0 does.
+// Windows 0 and 1 are seen side by side, later 2 alone. Window 2 turns out to be 1, and then to stand at the
+// place of 0.
 TEST(FacadeMap, WhatWasSeenBesideAWindowStaysApartFromTheOneThatItBecomes) {
   std::mt19937 random(9);
   test::WindowRow row;
@@ -185,7 +186,7 @@ TEST(FacadeMap, WhatIsLessThanHalfAsWideOrHighAsTheOneLookedForIsNoWindow) {
   }
 }
 
-// By its outer border, and so taken for nearer.
+// Detected by its outer border, and so placed too near.
 TEST(FacadeMap, ForgetsWhatWasGuessedAndIsNotThereButNotOutOfViewNorTheTarget) {
   std::mt19937 random(13);
   test::WindowRow row, outer;
@@ -228,7 +229,7 @@ TEST(FacadeMap, DoesNotTakeALargeLoopForTheWindowBehindIt) {
   std::mt19937 random(11);
   test::WindowRow row, loop;
   row.count = loop.count = 1;
-  loop.size = {4.0, 3.3};  // as far away as 1.5 m, if it had the size looked for
+  loop.size = {4.0, 3.3};  // as far away as 1.5 m if it had the expected size
   FacadeMap map{FacadeParams()};
   for (int n = 0; n < 20; ++n)
     map.see((n < 10 ? loop : row).look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt,

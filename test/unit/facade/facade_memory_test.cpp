@@ -11,7 +11,7 @@ namespace window_ingress::facade::facade_memory_test {
 
 using openness::Openness;
 
-/// A memory beside a row of windows, with a clock of its own.
+/// A façade memory in front of a row of windows, with its own clock.
 struct Watch {
   test::WindowRow row;
   FacadeMemory memory{FacadeParams()};
@@ -19,7 +19,7 @@ struct Watch {
   double now_sec = 10.0;
   Viewpoint view = test::WindowRow::from({-8.0, -3.8, 1.5});
 
-  /// \param target number in the row of the one that the detector follows, -1: none
+  /// \param target index in the row of the window that the detector tracks, -1: none
   void look(int images, int target) {
     for (int n = 0; n < images; ++n, now_sec += 0.1) {
       const auto filtered = target < 0 ? std::nullopt : std::optional(row.filtered(target, now_sec));
@@ -89,7 +89,8 @@ TEST(FacadeMemory, LetsTheOperatorChooseByNumberOrByAClick) {
   EXPECT_EQ(watch.memory.target(), &watch.at(0)) << "what was refused changes nothing";
 }
 
-// Windows 1 and 3 of the row, never seen side by side, until the filter finds that 3 stands where 1 does.
+// Windows 1 and 3 of the row were never seen side by side. Then the filter finds window 3 at the place of
+// window 1.
 TEST(FacadeMemory, AChosenWindowStaysTheTargetWhereItTurnsOutToBeOneWithAnOlderOne) {
   Watch watch;
   const auto look = [&](int seen, bool is_target, const std::optional<estimation::FilteredWindow>& filtered) {
@@ -136,7 +137,7 @@ TEST(FacadeMemory, GoesOnToTheNextBestOnlyWhereThatIsAllowed) {
     watch.memory.giveUp({closed}, allowed);
     EXPECT_EQ(watch.memory.targetId() != 0, allowed);
     EXPECT_NE(watch.memory.targetId(), closed);
-    watch.look(20, 2);  // the detector still follows it
+    watch.look(20, 2);  // the detector still tracks window 2
     EXPECT_NE(watch.memory.targetId(), closed) << "what was given up is not taken up again";
   }
 }
@@ -172,7 +173,7 @@ TEST(FacadeMemory, TheNextOneHasTheSizeLookedFor) {
   watch.row.count = 1;
   for (int n = 0; n < 20; ++n, watch.now_sec += 0.1) {
     auto look = watch.row.look(watch.now_sec, watch.view, 0, watch.random);
-    auto pane = look.windows.front();  // half as large, a metre beside
+    auto pane = look.windows.front();  // half as large, one metre aside
     const Eigen::Vector2d centre = geometry::centroid(pane.corners);
     for (auto& corner : pane.corners) corner = centre + 0.5 * (corner - centre) + Eigen::Vector2d(60.0, 0.0);
     pane.is_target = false;
@@ -195,7 +196,7 @@ TEST(FacadeMemory, ANextOneThatIsNotThereIsFollowedByAnother) {
     return place && (geometry::centroid(window.corners) - geometry::centroid(*place)).norm() < 20.0;
   };
   for (int n = 0; n < 40 && watch.memory.targetId() == next; ++n, watch.now_sec += 0.1) {
-    const bool away = n % 3 == 0;  // it looks elsewhere now and then
+    const bool away = n % 3 == 0;  // sometimes it looks elsewhere
     const auto view = away ? test::WindowRow::from({-8.0, -3.8, 1.5}, 2.0) : watch.view;
     auto look = watch.row.look(watch.now_sec, view, -1, watch.random);
     look.windows.erase(std::remove_if(look.windows.begin(), look.windows.end(), gone), look.windows.end());

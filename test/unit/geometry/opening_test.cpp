@@ -17,7 +17,7 @@ TEST(Opening, SquareViewIsCanonicalAndCentred) {
 }
 
 TEST(Opening, WindowTurnedLeftShowsItsLeftBorderNearerAndLonger) {
-  // Positive relative yaw turns the window's axis to the left: its left border comes towards the camera.
+  // A positive relative yaw turns the window's axis to the left: its left border comes towards the camera.
   const Eigen::Matrix3d R = R_optical_flu() * yawRotation(0.5);
   const auto image = projectOpening(kCamera, makePose(R, {0, 0, 4}), {1.2, 1.0});
   ASSERT_TRUE(image);

@@ -76,7 +76,7 @@ TEST(PinholeCamera, TellsHowWideAPixelIsAcrossALine) {
   const Eigen::Vector2d off(camera.cx + camera.fx * std::tan(angle), camera.cy);
   EXPECT_NEAR(camera.pixelAcross(off, {0, 2}), 4.0, 1e-3) << "about the axis";
   EXPECT_NEAR(camera.pixelAcross(off, {5, 0}), std::tan(angle) / angle, 1e-3) << "away from it";
-  // A line and its neighbour one image pixel beside it, at any slant.
+  // A line and a parallel one, one image pixel beside it, at any slant.
   for (const Eigen::Vector2d& along : {Eigen::Vector2d(1, 2), Eigen::Vector2d(-3, 1)}) {
     const Eigen::Vector2d unit = along.normalized(), across(-unit.y(), unit.x());
     const double pixel = camera.pixelAcross(off, along);
@@ -90,7 +90,7 @@ TEST(PinholeCamera, AFisheyeSeesNothingSidewaysAndStaysFinite) {
   PinholeCamera camera = fisheye();
   EXPECT_TRUE(camera.undistort({1e5, 240.0}).allFinite());
   EXPECT_LT(std::acos(camera.ray({1e5, 240.0}).z()), 1.5 + 1e-9);
-  for (const double odd : {-0.9, 5.0, 1e300}) {  // coefficients that turn back on themselves
+  for (const double odd : {-0.9, 5.0, 1e300}) {  // not monotonic
     camera.distortion = {odd, -odd, odd, -odd, 0.0};
     EXPECT_TRUE(camera.undistort({10.0, 10.0}).allFinite()) << odd;
   }

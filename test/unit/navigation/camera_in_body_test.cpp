@@ -8,7 +8,7 @@
 
 namespace window_ingress::navigation::camera_in_body_test {
 
-// Nose down by `pitch_rad`, to the left by `yaw_rad`, 0.3 m ahead.
+// A camera pitched down by `pitch_rad`, turned to the left by `yaw_rad`, 0.3 m ahead.
 Eigen::Isometry3d mounted(double pitch_rad, double yaw_rad) {
   const Eigen::Matrix3d R_base_link = (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
                                        Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()))
@@ -38,7 +38,7 @@ TEST(CameraInBody, TurnedAsideItSeesLessByTwiceTheAngle) {
 }
 
 TEST(CameraInBody, SitsInTheBodyAndLooksForward) {
-  VehicleParams vehicle;  // reaches 0.25 m ahead and aside, 0.12 m up
+  VehicleParams vehicle;  // extends 0.25 m ahead and aside, 0.12 m up
   const auto why = [&](const Eigen::Vector3d& at_m, double pitch_rad = 0.0, double yaw_rad = 0.0) {
     return whyNotMounted(geometry::makePose(mounted(pitch_rad, yaw_rad).linear(), at_m), vehicle);
   };

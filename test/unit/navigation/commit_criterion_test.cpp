@@ -29,7 +29,7 @@ CommitCriterion criterionOf(const RelativeState& relative, const geometry::Openi
 TEST(CommitDistance, IsWhereTheOpeningOutgrowsTheView) {
   NavigatorParams params;
   params.vehicle.half_length_m = 0.05;
-  params.commit.speed_mps = 0.3;  // the stopping distance must not decide here
+  params.commit.speed_mps = 0.3;  // so that the stopping distance does not matter
   params.commit.view_margin_m = 0.0;
   params.vehicle.camera_forward_m = 0.0;
   const double level = commitDistance(at(2.0), kOpening, 0.0, params);
@@ -125,7 +125,8 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
               1e-12);
 }
 
-// It is coasted by until the vehicle answers, and steered against for ever.
+// The vehicle drifts with this velocity error until it responds. Afterwards its position control has to
+// counter the error permanently.
 TEST(CommitCriterion, AVelocityThatIsOffIsAMiss) {
   const NavigatorParams params;
   CommitCriterionInput input;

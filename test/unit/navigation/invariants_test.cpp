@@ -1,4 +1,4 @@
-/// What holds whatever comes in: 3 10^5 steps of hostile inputs, judged by rules written apart from the
+/// Rules that hold for any input: 3 10^5 steps of hostile inputs. The rules are written independently of the
 /// navigator.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace window_ingress::navigation::invariants_test {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// A vehicle that roughly obeys, and inputs that are spoilt now and then.
+/// A vehicle that roughly obeys, and inputs that are sometimes corrupted.
 class HostileWorld {
  public:
   explicit HostileWorld(unsigned seed) : random_(seed) {}
@@ -85,8 +85,8 @@ class HostileWorld {
   bool is_trusted_ = true, is_seen_ = true, is_unverified_ = false;
 };
 
-/// Odometry given so far: usable if the newest sample is fresh and came a moment ago, and the one of this
-/// step is not broken.
+/// Odometry received so far. It is usable if the newest sample is fresh and arrived a moment ago, and this
+/// step's sample is valid.
 struct FreshVehicle {
   double newest_sec = -1e9, arrived_sec = -1e9;
   bool see(const NavigatorInput& input, double now, const InputParams& params) {
@@ -101,7 +101,7 @@ struct FreshVehicle {
   }
 };
 
-/// Good targets given so far; the navigator may fly by any that is still fresh.
+/// Valid targets received so far. The navigator may use any of them that is still fresh.
 struct FreshTargets {
   double trusted_sec = -1e9;
   void see(const NavigatorInput& input, double now, const InputParams& params) {
@@ -121,7 +121,7 @@ void expectWithinLimits(const Setpoint& setpoint, const LimitParams& limits) {
   ASSERT_LE(std::abs(setpoint.yaw_rate_radps), limits.yaw_rate_radps + 1e-9);
 }
 
-/// \param hold_speed_mps of the way back to the place that is kept; 0: none is kept
+/// \param hold_speed_mps speed of the return to the kept place; 0: no place is kept
 void expectInvariants(double hold_speed_mps) {
   NavigatorParams params = test::withoutGlass();
   params.hold.speed_mps = hold_speed_mps;
@@ -157,12 +157,12 @@ void expectInvariants(double hold_speed_mps) {
         ASSERT_LE(std::abs(velocity.z()), params.hold.speed_mps + 1e-9) << toString(output.state);
       }
       const bool was_trusted = now - fresh.trusted_sec <= params.input.max_target_age_sec;
-      // Nothing but a trusted window leads forward, and the place that is kept leads back there, slowly. The
-      // window's normal is odom's x axis within 0.05 rad.
+      // Only a trusted window permits forward motion, and the kept place a slow return. The window's normal
+      // is odom's x axis within 0.05 rad.
       if (output.state != State::kCommit && !was_trusted) {
         ASSERT_LE(velocity.x(), goes_back ? params.hold.speed_mps + 1e-9 : 0.06) << toString(output.state);
       }
-      // Whatever is not known of a window, sideways leads at most back to where the vehicle stood.
+      // Without a trusted window, lateral motion is at most the return to the kept place.
       if (output.state == State::kSearch || (output.state == State::kAlign && !was_trusted)) {
         ASSERT_LE(velocity.head<2>().norm(), params.hold.speed_mps + 1e-9);
         kept += velocity.head<2>().norm() > 0.0;
@@ -184,7 +184,7 @@ void expectInvariants(double hold_speed_mps) {
       }
     }
   }
-  EXPECT_GT(flown, 10000);  // the test has flown at all
+  EXPECT_GT(flown, 10000);  // the vehicle has moved in this test
   EXPECT_GT(forward, 250);
   EXPECT_GT(committed, 25);
   EXPECT_EQ(kept > 25, goes_back);

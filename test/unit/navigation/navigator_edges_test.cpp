@@ -1,4 +1,4 @@
-/// The edges that lead out of every live state, from each of these states.
+/// The transitions out of every live state, taken from each of these states.
 #include <gtest/gtest.h>
 
 #include "navigation_samples.hpp"
@@ -12,7 +12,7 @@ const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 
 constexpr State kLive[] = {State::kSearch, State::kAlign,   State::kApproach,
                            State::kCommit, State::kBackOff, State::kHold};
 
-/// A mission that has been led into a state.
+/// A mission that has reached a given state.
 struct Mission {
   explicit Mission(const NavigatorParams& params = test::withoutGlass()) : navigator(params) {}
 
@@ -25,7 +25,7 @@ struct Mission {
     for (int i = 0; i < steps; ++i) step(test::inputAt(at, now + kStep, with_target));
   }
   void step(const NavigatorInput& input) { output = navigator.step(input, now += kStep); }
-  /// There and to a stand, as odometry would tell it.
+  /// Flies there and stops, as odometry would report it.
   void walk(const Eigen::Vector3d& to) {
     const Eigen::Vector3d way = (to - at) / 60.0;
     for (int i = 1; i <= 60; ++i) {
@@ -142,7 +142,7 @@ TEST(NavigatorEdges, EveryLiveStateGivesUpWhenTheMissionTakesTooLong) {
     mission.leadInto(state);
     ASSERT_EQ(mission.output.state, state);
     for (int i = 0; i < 40; ++i) {
-      mission.now += 0.9;  // no jump of the clock
+      mission.now += 0.9;  // not a clock jump
       mission.stay(1);
     }
     EXPECT_EQ(mission.output.state, State::kAborted) << toString(state);
@@ -172,7 +172,7 @@ TEST(NavigatorEdges, ApproachLeavesAnotherWindow) {
   EXPECT_EQ(mission.output.state, State::kSearch);
 }
 
-/// Odometry is gone for a moment during COMMIT; there are no images any more, before or after.
+/// Odometry is missing for a moment during COMMIT, without images before and after.
 NavigatorOutput interruptedAt(const Eigen::Vector3d& place, int step) {
   Mission mission;
   mission.leadInto(State::kCommit);

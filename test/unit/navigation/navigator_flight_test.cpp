@@ -1,4 +1,4 @@
-/// Closed loops over a kinematic plant: does it pass, and does it never touch.
+/// Closed loops with a kinematic plant: the vehicle passes and never touches anything.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,7 +103,7 @@ TEST(NavigatorFlight, GivesUpOnASignThatStaysAmbiguous) {
   params.is_ambiguous = true;
   params.height_error_m = 0.0;
   NavigatorParams navigator = test::withoutGlass();
-  navigator.align.probe_amplitude_m = 0.3;  // the plant's sign needs 0.4 m
+  navigator.align.probe_amplitude_m = 0.3;  // the plant reveals its sign after 0.4 m
   const auto mission = flown(params, navigator);
   EXPECT_EQ(mission.last.state, State::kAborted);
   EXPECT_NE(mission.last.reason.find("4 height probes"), std::string::npos) << mission.last.reason;

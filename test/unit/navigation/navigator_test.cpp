@@ -1,4 +1,4 @@
-/// The navigator's requests and edges, one step at a time.
+/// The navigator's requests and transitions, step by step.
 #include "window_ingress/navigation/navigator.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using test::targetAtOrigin;
 
 constexpr double kStep = 1.0 / 30.0;
 
-/// Steps a navigator over inputs that stand still.
+/// Steps a navigator with constant inputs.
 class NavigatorSteps : public testing::Test {
  protected:
   NavigatorParams params_ = test::withoutGlass();
@@ -34,11 +34,11 @@ class NavigatorSteps : public testing::Test {
     }
     return output;
   }
-  /// Walks the vehicle there in small steps and to a stand, as odometry would tell it.
+  /// Moves the vehicle there in small steps and stops it, as odometry would report it.
   NavigatorOutput walk(Navigator& navigator, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                        bool with_target = true) {
     NavigatorOutput output;
-    constexpr int kSteps = 100;  // about as fast as it is told
+    constexpr int kSteps = 100;  // about as fast as commanded
     const Eigen::Vector3d velocity_mps = (to - from) / (kSteps * kStep);
     for (int i = 1; i < kSteps; ++i)
       output = steps(navigator, from + (to - from) * i / kSteps, 1, with_target, true, velocity_mps);
@@ -190,7 +190,7 @@ TEST_F(NavigatorSteps, TurnsBackFromACommitWhenTheWindowIsSeenElsewhere) {
     now_ += kStep;
     auto input = inputAt(kLine, now_);
     input.target = targetAtOrigin(now_);
-    input.target->T_odom_window.translation().y() += 0.3;  // as odometry would make it that drifts by 0.3 m
+    input.target->T_odom_window.translation().y() += 0.3;  // the effect of an odometry drift of 0.3 m
     EXPECT_EQ(output.state, State::kCommit);
     output = navigator.step(input, now_);
   }
@@ -207,7 +207,7 @@ TEST_F(NavigatorSteps, TurnsBackFromACommitWhenItIsCarriedOffTheAxisAgainstWhatI
   for (int i = 0; i < 30 && output.state == State::kCommit; ++i) {
     now_ += kStep;
     auto input = inputAt(kLine, now_);
-    input.vehicle->velocity_odom_mps.y() = 0.6;  // as fast as the wind carries it, whatever it is told
+    input.vehicle->velocity_odom_mps.y() = 0.6;  // carried by the wind, whatever the command
     output = navigator.step(input, now_);
   }
   EXPECT_EQ(output.state, State::kBackOff) << output.reason;
@@ -226,7 +226,7 @@ TEST_F(NavigatorSteps, AClockThatJumpsAheadHoldsAndGoesOn) {
 }
 
 TEST_F(NavigatorSteps, BacksOffFromTheLineWithoutAContractAndComesBack) {
-  params_.vehicle.margin_m = 0.33;  // which leaves next to nothing
+  params_.vehicle.margin_m = 0.33;  // leaves almost no clearance
   Navigator navigator(params_);
   start(navigator, kFar);
   walk(navigator, kFar, kFar);
@@ -261,7 +261,7 @@ TEST_F(NavigatorSteps, NoMissionStartsInTheOpeningThatTheLastOneFlewAt) {
     const Eigen::Vector3d there(-0.3, 0.0, 1.5);
     ASSERT_EQ(walk(navigator, kLine, there).state, State::kCommit);
     auto input = inputAt(there, now_ += kStep);
-    input.engaged = aborted;  // else the pilot has taken over
+    input.engaged = aborted;  // otherwise the pilot has taken over
     if (aborted) navigator.abort("asked");
     navigator.step(input, now_);
     EXPECT_TRUE(navigator.reset().success);

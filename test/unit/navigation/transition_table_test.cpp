@@ -62,7 +62,7 @@ static_assert(everyMovingStateHoldsOnStaleInput(), "a moving state that ignores 
 State stateAt(std::size_t i) { return static_cast<State>(i); }
 Event eventAt(std::size_t i) { return static_cast<Event>(i); }
 
-/// The mission, written down apart from the table: what leads where. Every other pair means nothing.
+/// The mission's transitions, written independently of the table. Every other pair has no effect.
 const std::set<std::string> kMission{
     "IDLE, start: SEARCH",
     "IDLE, abort: ABORTED",
@@ -167,7 +167,7 @@ TEST(TransitionTable, EveryLiveStateYieldsToThePilot) {
   }
 }
 
-/// Events that lead to the same state from nearly everywhere: in the table, not in the image.
+/// Events that lead to the same state from almost everywhere: in the table, not in the diagram.
 bool isEverywhere(Event event) {
   return event == Event::kAbort || event == Event::kGiveUp || event == Event::kDisengaged;
 }
@@ -191,7 +191,7 @@ void writeRows(std::ostringstream& text) {
 
 const std::string kHeading = "## State machine\n";
 
-/// The diagram (Mermaid) and the table of events as the last section of doc/navigation.md.
+/// The diagram (Mermaid) and the table of events, as in the last section of doc/navigation.md.
 std::string stateMachineSection() {
   std::ostringstream text;
   text << kHeading

@@ -27,7 +27,7 @@ double blotches(double y, double z) {
          40.0 * std::sin(31.0 * y + 3.0 * std::sin(23.0 * z)) * std::sin(27.0 * z + 2.0 * std::sin(19.0 * y));
 }
 
-/// What a sight shows that crosses the border's plane at (y, z) and gains (across, up) a metre behind it.
+/// Brightness along a line of sight that crosses the border's plane at (y, z) with the slope (across, up).
 using Look = std::function<double(double y, double z, double across, double up)>;
 
 double room(double y, double z, double across, double up) {
@@ -130,7 +130,7 @@ TEST(InteriorKltTracker, bareWallIsAsDeepAsTheEdgesItEndsAt) {
       << "by the points alone most of it is unseen";
 }
 
-// What such a wall shows is the lack of edges, so a plain board before it must be given away by its own.
+// Such a wall has no edges. So a plain board in front of it must be recognised by its own edges.
 TEST(InteriorKltTracker, plainBoardBeforeABareRoomIsNotOpen) {
   for (const double contrast : {-20.0, 5.0, 60.0})
     for (const double edge_m : {-0.1, 0.0})

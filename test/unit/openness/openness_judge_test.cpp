@@ -22,7 +22,7 @@ const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 struct Approach {
   double depth_m = 3.0, sideways_m = 0.0;
   std::uint32_t target_id = 1;
-  double moving = 0.0;  // part of the points that swirl around the image's middle
+  double moving = 0.0;  // fraction of points that swirl around the image's centre
 
   Isometry3d camera(double plane_m) const {
     return geometry::makePose(geometry::R_optical_flu().transpose(),
@@ -203,7 +203,7 @@ TEST(OpennessJudge, parametersOutOfRangeAreNamed) {
   }
 }
 
-// More than a hundred thousand images, with all noise: see evaluation/openness_survey.hpp.
+// evaluation/openness_survey.hpp covers more than a hundred thousand images with all noise.
 TEST(OpennessJudge, nothingClosedIsEverCalledOpen) {
   const evaluation::OpennessRange range;
   for (const Interior interior : {Interior::kPoster, Interior::kPane, Interior::kTilted, Interior::kCurtain,
@@ -213,8 +213,7 @@ TEST(OpennessJudge, nothingClosedIsEverCalledOpen) {
           << evaluation::toString(interior) << " " << seed;
 }
 
-// Not that it would be seen: one camera cannot tell. But the more a pane mirrors, the less it passes for a
-// way.
+// One camera cannot detect the pane. But the more a pane reflects, the less often it is judged OPEN.
 TEST(OpennessJudge, theMoreAPaneMirrorsTheSeldomerItIsCalledOpen) {
   evaluation::OpennessRange range;
   std::vector<int> open;
@@ -236,7 +235,7 @@ TEST(OpennessJudge, roomsAreCalledOpenInTimeAndNeverClosed) {
   for (std::uint32_t seed = 1; seed <= kFlights; ++seed) {
     const auto result = evaluation::flySynthetic(Interior::kRoom, seed, range, {});
     open += result.at_decision.openness == Openness::kOpen;
-    // Things stand in it from 0.4 of its depth on.
+    // Furniture stands in the room from 0.4 of its depth on.
     const bool may_be_blocked = 0.4 * result.room_m < OpennessParams().min_depth_behind_m;
     EXPECT_TRUE(may_be_blocked || !result.ever_closed) << seed;
   }

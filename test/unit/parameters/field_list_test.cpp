@@ -78,7 +78,7 @@ TEST(FieldList, NothingChangedIsAnEmptyMapping) {
   EXPECT_EQ(toYaml({}, "window_detector/detector"), "window_detector:\n  detector: {}\n");
 }
 
-// Whatever is set comes back from the file.
+// Every value that is set is read back from the file.
 TEST(FieldList, YamlReadsBackTheSame) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

@@ -89,7 +89,7 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_TRUE(test::says(error("- 1\n"), "must be a mapping"));
 }
 
-// Nodes read the same file through ROS, and refuse these as texts, or read "010" as eight.
+// Nodes read the same file through ROS, which treats these as texts, or reads "010" as eight.
 TEST_F(YamlFile, RefusesWhatRosReadsOtherwise) {
   for (const char* value : {"\"0.5\"", "'1'", "1e-1", "1.0e1", "010", "+.5"})
     EXPECT_TRUE(test::says(error(std::string("speed_mps: ") + value + "\n"),

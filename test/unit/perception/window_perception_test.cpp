@@ -8,7 +8,7 @@ namespace window_ingress::perception::window_perception_test {
 
 constexpr int kFrames = 12;
 
-// A framed window that grows from image to image, with texture in its opening.
+// A framed window that grows from image to image, with a textured opening.
 detection::TrackInput frameAt(int i) {
   test::DrawnWindow drawn;
   drawn.width = 320, drawn.height = 240, drawn.frame_px = 6.0, drawn.seed = 1 + i;

@@ -1,5 +1,5 @@
-// The chessboard of config/scenarios/chessboard.yaml: a board that the usual finder finds, and that gives the
-// lens back.
+// The chessboard of config/scenarios/chessboard.yaml: OpenCV finds the board, and calibration recovers the
+// lens.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -12,8 +12,8 @@
 
 namespace window_ingress::test {
 
-/// Position along a profile at which it steps between its two ends, by the area under it: exact for an edge
-/// that was averaged over each pixel. Nothing if the ends do not differ.
+/// Position of the step between both ends of a profile, by the area under it. Exact for an edge that is
+/// averaged over each pixel. Nothing if both ends are equal.
 inline std::optional<double> stepPosition(const std::vector<double>& profile) {
   const double first = profile.front(), last = profile.back();
   if (std::abs(first - last) < 40.0) return std::nullopt;
@@ -58,8 +58,8 @@ inline Eigen::Vector3d fitLine(const std::vector<Eigen::Vector2d>& points) {
   return {normal.x(), normal.y(), normal.dot(mean)};
 }
 
-/// Corners of the opening near `expected`, each side fitted for itself; `straighten` maps an image point to
-/// where a straight line is straight. Nothing if a side has fewer than ten points.
+/// Corners of the opening near `expected`; each side is fitted separately. `straighten` maps an image point
+/// to an image without distortion. Nothing if a side has fewer than ten points.
 template <typename Straighten>
 std::optional<geometry::Quadrilateral> fitCorners(const cv::Mat& grey,
                                                   const geometry::Quadrilateral& expected, int half_px,

@@ -10,7 +10,7 @@
 
 namespace window_ingress::simulation::referee_test {
 
-// The course of a real scenario, so that the referee is tested against the walls that are drawn.
+// The course of a real scenario: the referee is tested with the same walls that are rendered.
 class Flight : public testing::Test {
  protected:
   Flight() : scene_(buildScene(scenario_)), referee_(course()) {}
@@ -27,7 +27,7 @@ class Flight : public testing::Test {
     return course;
   }
 
-  // Straight to a point of the window frame, level, the nose along the normal turned by `yaw_rad_`.
+  // Flies straight and level to a point of the window frame; `yaw_rad_` turns the nose off the normal.
   void flyTo(const Eigen::Vector3d& target, double speed_mps = 1.0) {
     const Eigen::Vector3d start = position_;
     const int steps = std::max(1, static_cast<int>(std::ceil((target - start).norm() / speed_mps / 0.0025)));

@@ -34,7 +34,7 @@ Scenario manyWindows() {
   return scenario;
 }
 
-// Sheets that stand where only a crack could show them: within the wall, and behind the house.
+// Sheets that only a gap would reveal: within the wall, and behind the house.
 Scene withSheets(Scene scene, const Scenario& scenario, const Vector3d& colour) {
   scene.mesh.setLighting({Vector3d::UnitZ(), 0.0, 1.0});
   const double within_m = 0.5 * (scenario.window.wallFront() + scene.opening_depth_m);

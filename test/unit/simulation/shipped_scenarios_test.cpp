@@ -26,7 +26,7 @@ Scenario load(const std::string& name, std::uint32_t seed) {
   return loadScenario(kFolder + name + ".yaml", seed);
 }
 
-// As the camera delivers it from the start, if it looked at the window.
+// The camera's image from the start, but facing the window.
 cv::Mat firstImage(Scenario scenario, std::uint32_t seed) {
   scenario.start.heading_rad = 0.0;
   scenario.camera.width_px = 160;
@@ -38,7 +38,7 @@ cv::Mat firstImage(Scenario scenario, std::uint32_t seed) {
   }
 }
 
-// Part of an image of the scene, square on, without sensor.
+// Part of a rendered image of the scene, facing the wall, without the sensor model.
 double brightness(const Scenario& scenario, double y_m, double z_m) {
   const cv::Mat image = views::photograph(buildScene(scenario), views::lookAt({-3, 0, 0}, {0, 0, 0}));
   const auto camera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.0);

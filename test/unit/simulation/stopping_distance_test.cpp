@@ -1,5 +1,4 @@
-// What a limit of the speed means in metres: the table of doc/autopilots.md, measured on the simulated
-// vehicles.
+// Stopping distances of the simulated vehicles for speed limits: the table of doc/autopilots.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +21,8 @@ constexpr double kGuard_sec = 0.2 + 1.0 / 30.0;  // late_sec and one period of t
 constexpr double kTolerance_m = 0.05;
 constexpr const char* kProfiles[] = {"arducopter_4_0", "arducopter_4_3", "crisp", "px4_1_13_gps"};
 
-/// How far a vehicle gets, at most, after its sender has died at `speed`; zeros come after `zeros_after_sec`,
-/// negative: never.
+/// Largest distance that a vehicle flies after its sender has died at `speed`. Zeros follow after
+/// `zeros_after_sec`; negative: never.
 double travel(const std::string& profile, double speed_mps, double zeros_after_sec) {
   QuadrotorParams params;
   OdometryParams odometry;
@@ -42,7 +41,7 @@ double travel(const std::string& profile, double speed_mps, double zeros_after_s
   return furthest_m;
 }
 
-/// Cells of the table below the line that names it, by the first two of each row.
+/// Cells of the table below the line that names it, by the first two cells of each row.
 std::map<std::string, std::vector<double>> documented() {
   std::ifstream file(std::string(WINDOW_INGRESS_SOURCE_DIR) + "/doc/autopilots.md");
   std::map<std::string, std::vector<double>> rows;
@@ -77,7 +76,7 @@ TEST(StoppingDistance, IsAsDocumented) {
     }
 }
 
-// What px4.launch and ardupilot.launch say of the vehicle is what the speed schedule counts on.
+// The vehicle values of px4.launch and ardupilot.launch are those that the speed schedule assumes.
 TEST(StoppingDistance, IsNotLongerThanWhatTheLaunchFilesSay) {
   const std::string ardupilot = WINDOW_INGRESS_SOURCE_DIR "/config/ardupilot.yaml";
   const std::pair<const char*, std::string> flown[] = {{"px4_1_13_gps", ""},

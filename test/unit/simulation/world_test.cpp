@@ -140,7 +140,7 @@ TEST(World, CommandsAreUnderstoodInTheDriftedAxes) {
 TEST(World, NoiseHasTheSizeAskedAndIsNewInEachImage) {
   Scenario scenario = quietScenario();
   scenario.camera.noise_grey = 3.0;
-  scenario.odometry.velocity_noise_mps = 0.0;  // or the vehicle would not hold still between the two
+  scenario.odometry.velocity_noise_mps = 0.0;  // otherwise the vehicle would move between the two
   scenario.camera.blur_px = 0.0;
   World world(scenario, 1);
   std::vector<cv::Mat> images;

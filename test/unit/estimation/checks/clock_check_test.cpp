@@ -9,13 +9,13 @@
 
 namespace window_ingress::estimation::clock_check_test {
 
-/// A vehicle that turns towards a window 4 m ahead, stands, and turns on a little; 20 images a second.
+/// A vehicle turns towards a window 4 m ahead, stands, and turns a little further; 20 images a second.
 struct Turning {
   double late_sec = 0.0, sideways_mps = 0.0, believed_off_m = 0.0;
   std::mt19937 random{5};
   ClockCheck check;
 
-  static double rate(double t) {  // of yaw; it takes 0.3 s to change
+  static double rate(double t) {  // yaw rate; it takes 0.3 s to change
     const double phase = std::fmod(t, 3.0);
     return 0.5 * std::clamp((1.5 - phase) / 0.3, 0.0, 1.0);
   }

@@ -15,14 +15,14 @@ constexpr double kTurn = 10.0 * M_PI / 180.0;
 struct Result {
   FramesVerdict::State state;
   std::string what;
-  double way_m;  ///< until it was said
+  double way_m;  ///< path length until the verdict
 };
 
-/// The first verdict that is wrong, else the last one. Drift, attitude errors and noise are always there.
+/// The first wrong verdict, otherwise the last verdict. Drift, attitude errors and noise are always present.
 Result fly(unsigned seed, const evaluation::FrameFaults& faults, double larger = 1.0,
            double speed_mps = 0.6) {
   FilterParams errors;
-  errors.mounting_yaw_sigma_rad = 0.005;  // the turn is that of `faults`
+  errors.mounting_yaw_sigma_rad = 0.005;  // `faults` adds the turn
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
   script.opening.width_m *= larger;
   script.opening.height_m *= larger;

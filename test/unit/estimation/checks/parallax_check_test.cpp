@@ -13,10 +13,10 @@ using Verdict = ParallaxCheck::Verdict;
 
 struct Seen {
   ParallaxCheck check;
-  double way_m = 0.0;  ///< until there was a verdict
+  double way_m = 0.0;  ///< path length until the verdict
 };
 
-/// Moves across the sight of a window whose true size over the said one is `factor`, with noise.
+/// Moves across the line of sight to a window, with noise. `factor` is its true size over its stated size.
 Seen moveBy(double way_m, double factor, double distance_m, unsigned seed, const Eigen::Vector3d& direction) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gauss;
@@ -63,7 +63,7 @@ TEST(ParallaxCheck, OdometryATenthOfASecondLateIsNoOtherWindow) {
       };
       for (double t = 0.0; t < 2.0; t += 0.033) {
         const Eigen::Vector3d camera(0.0, yAt(t), 0.0), told(0.0, yAt(t - late_sec), 0.0);
-        // The camera is kept on the window; the heading comes as late as the place.
+        // The camera keeps pointing at the window. Heading and position are equally late.
         const auto bearing = [&](double y) { return std::atan2(-y, distance_m); };
         const double turn = bearing(told.y()) - bearing(camera.y());
         const Eigen::AngleAxisd turned(turn, Eigen::Vector3d::UnitZ());

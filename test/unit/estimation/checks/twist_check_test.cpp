@@ -14,7 +14,7 @@ namespace window_ingress::estimation::twist_check_test {
 using Meaning =
     std::function<Eigen::Vector3d(const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity_odom)>;
 
-/// Flies a square at some heading; what is reported as twist is taken for the body's.
+/// Flies a square at some heading. The reported twist is interpreted in the body frame.
 FramesVerdict fly(double heading_rad, unsigned seed, const Meaning& twist, double noise_mps = 0.03,
                   double side_sec = 1.5, const Eigen::Vector3d& bias_base_mps = {0, 0, 0},
                   double slide_mps = 0.0) {
@@ -110,7 +110,7 @@ TEST(TwistCheck, ABiasFixedInTheBodyIsNoFault) {
 TEST(TwistCheck, HoveringWithABiasIsNoFault) {
   TwistCheck check;
   for (int i = 0; i < 50 * 60; ++i) {
-    const Eigen::Matrix3d R = geometry::yawRotation(0.01 * i);  // while it searches
+    const Eigen::Matrix3d R = geometry::yawRotation(0.01 * i);  // during the search
     check.add(i / 50.0, geometry::makePose(R, {0, 0, 1}), R * Eigen::Vector3d(0.2, 0.15, 0.0));
     ASSERT_NE(check.verdict().state, FramesVerdict::kWrong) << i / 50.0 << ": " << check.verdict().what;
   }
@@ -159,7 +159,7 @@ TEST(TwistCheck, WhatDoesNotFitIsTakenBackWhereMostFitsAgain) {
   Eigen::Vector3d position(0, 0, 1);
   for (int i = 0; i < 900; ++i) {
     const Eigen::Vector3d velocity(0.5, 0.1, 0.0);
-    if (i >= 500) position += velocity / 50.0;  // stood still until now
+    if (i >= 500) position += velocity / 50.0;  // stands still before
     check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), position), velocity);
     if (i == 499) {
       EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
@@ -168,7 +168,7 @@ TEST(TwistCheck, WhatDoesNotFitIsTakenBackWhereMostFitsAgain) {
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen) << check.verdict().what;
 }
 
-// Velocity of the body, always off by `bias`, and a position that walks as a satellite receiver's.
+// Velocity in the body frame with a constant `bias`, and a position that drifts like a satellite receiver's.
 TEST(TwistCheck, ABiasThatPassedForOtherAxesIsRefutedOnceItIsKnown) {
   int accused = 0, lasting = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {

@@ -33,7 +33,7 @@ ScaledCamera randomCamera(std::mt19937& random) {
           {0.02 * unit(random), 0.02 * unit(random), 0.02 * unit(random)}};
 }
 
-// The share that does not scale keeps its length in heights of the window.
+// Dividing by the window's height keeps the part that does not scale.
 ScaledCamera at(const ScaledCamera& camera, const WindowState& from, const WindowState& to) {
   const double share = from.values(WindowState::kInverseHeight) / to.values(WindowState::kInverseHeight);
   ScaledCamera moved = camera;

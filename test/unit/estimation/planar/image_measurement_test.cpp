@@ -39,12 +39,12 @@ TEST(ImageMeasurement, ResidualsOfTheTrueViewHaveUnitVariance) {
     ASSERT_TRUE(image);
     squares += image->evaluate(truth).residual.cwiseAbs2() / draws;
   }
-  // Borders that are straight in the distorted image stand in for fits in the undistorted one: a small
-  // difference.
+  // Borders that are straight in the distorted image approximate fits in the undistorted one.
   for (int k = 0; k < 8; ++k) EXPECT_NEAR(squares(k), 1.0, 0.15) << k;
 }
 
-// Both errors are of the image as it came; 63 degrees off the axis the ideal pixels are five times smaller.
+// Both errors are in pixels of the distorted image. At 63 degrees off the axis ideal pixels are five times
+// smaller.
 TEST(ImageMeasurement, ErrorsOfAFisheyesImageAreItsPixels) {
   geometry::PinholeCamera fisheye = camera();
   fisheye.model = geometry::LensModel::kEquidistant;
@@ -56,7 +56,7 @@ TEST(ImageMeasurement, ErrorsOfAFisheyesImageAreItsPixels) {
     noise.systematic_sigma_px = white_px > 0.1 ? 1e-4 : 0.5 * std::sqrt(2.0);
     detection::WindowObservation window;
     window.corner_visible.fill(false);
-    const double shift_px = 0.5, lens_off = truth(2);  // of the right side, outwards
+    const double shift_px = 0.5, lens_off = truth(2);  // shift of the right side, outwards
     const Eigen::Vector2d middle = fisheye.distort({lens_off, fisheye.cy});
     const double seen = fisheye.undistort({middle.x() + shift_px, middle.y()}).x();
     window.edges[geometry::kRight] = {true, white_px, 0.01, fisheye.distort({seen, truth(3)}),

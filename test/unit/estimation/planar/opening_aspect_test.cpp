@@ -94,7 +94,7 @@ TEST(OpeningAspect, OfUnknownScaleTheDistanceIsAsUncertainAsTheScale) {
   EXPECT_NEAR(std::sqrt(aspect.best.covariance(2, 2)), 0.2 * 4.0, 0.02);
   EXPECT_NEAR(aspect.opening_log_covariance(0, 1), 0.04, 1e-3);
   EXPECT_TRUE(known.opening_log_covariance.isZero(0.0));
-  // Twice the size at twice the distance is the same image.
+  // An opening twice as large at twice the distance gives the same image.
   const auto twice = assuming("aspect", 2.4, 2.0, 0.2).estimate(window, camera()).estimate.value();
   EXPECT_NEAR(twice.best.T_camera_window.translation().norm(),
               2.0 * known.best.T_camera_window.translation().norm(), 1e-3);

@@ -7,7 +7,7 @@ namespace window_ingress::estimation::stray_border_test {
 
 using namespace fixtures;
 
-/// Moves one border inwards, parallel to itself, corners and all.
+/// Moves one border inwards, parallel to itself, with its corners.
 detection::WindowObservation withBorderMoved(detection::WindowObservation window, int side,
                                              double inwards_px) {
   std::array<Eigen::Vector3d, 4> lines;
@@ -26,7 +26,7 @@ struct Errors {
   int astray = 0;
 };
 
-/// The fit is of another size than the one that is known.
+/// The fitted size differs from the known size.
 bool leavesABorderOut(const WindowPoseEstimate& estimate) {
   const auto &fitted = estimate.best.opening, &known = estimate.opening;
   return fitted.width_m != known.width_m || fitted.height_m != known.height_m;

@@ -46,7 +46,7 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
   EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), is_committed));
 }
 
-// It is the only one that is seen there.
+// Without images the target is the only window that is seen.
 TEST(ClosedLoopFlight, WithoutImagesNobodyWaitsForATargetToBeChosen) {
   auto scenario = shortFlight();
   scenario.target_chosen = true;
@@ -56,7 +56,7 @@ TEST(ClosedLoopFlight, WithoutImagesNobodyWaitsForATargetToBeChosen) {
   EXPECT_EQ(flight.outcome, Outcome::kPassed) << flight.reason;
 }
 
-// ArduCopter stamps its odometry 0.08 s late, and the heading beside its positions is off.
+// ArduCopter stamps its odometry 0.08 s late, and its heading is off relative to the axes of its positions.
 simulation::Scenario ofArduCopter(const std::string& profile, double off_axis_rad, double heading_rad) {
   auto scenario = shortFlight();
   scenario.start.distance_m = 5.0;
@@ -121,14 +121,13 @@ TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
   const auto flight = flyOnce(scenario, 1, FlightParams());
   EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
   EXPECT_NE(flight.reason.find("~confirm_opening"), std::string::npos) << flight.reason;
-  scenario.glass = "excluded";  // the operator errs: it is OPEN that leads in
+  scenario.glass = "excluded";  // the operator is wrong; the verdict OPEN lets the vehicle in
   const auto wrong = flyOnce(scenario, 1, FlightParams());
   EXPECT_EQ(wrong.outcome, Outcome::kCollision) << wrong.reason;
   EXPECT_NE(wrong.reason.find("touched glass"), std::string::npos) << wrong.reason;
 }
 
-/// Of stamps of images beside those of odometry, as the flight found it, for odometry's stamps so much
-/// ahead.
+/// Estimated lateness of the image stamps relative to those of odometry, which are this much ahead.
 std::optional<double> lateSecFound(double odometry_ahead_sec) {
   auto scenario = shortFlight();
   scenario.start.heading_rad = 1.2;  // it has to turn towards the window

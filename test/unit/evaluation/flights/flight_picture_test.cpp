@@ -15,7 +15,7 @@ FlightResult straightFlight(Outcome outcome, double y_m) {
   return flight;
 }
 
-// Rows in which a colour is seen, below the legend.
+// Rows below the legend that contain this colour.
 cv::Range rowsOf(const cv::Mat& image, const cv::Scalar& colour) {
   cv::Mat mask, rows;
   cv::inRange(image, colour, colour, mask);

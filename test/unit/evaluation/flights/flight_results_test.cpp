@@ -76,7 +76,7 @@ TEST_F(FlightResults, ReadsBackWhatItWrote) {
   EXPECT_TRUE(read[1].track.empty());
 }
 
-// Of a full disk, or of a process that was killed: its flights can be gone on with.
+// A full disk or a killed process leaves a cut row. The flights can be resumed.
 TEST_F(FlightResults, LeavesARowOutThatWasCutOff) {
   const fs::path folder = write("a", {flightWith(2)});
   std::ofstream(folder / "flights.csv", std::ios::app) << "3,PASSED,8.500,-0.01";

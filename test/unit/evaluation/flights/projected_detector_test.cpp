@@ -12,7 +12,7 @@ namespace window_ingress::evaluation::projected_detector_test {
 const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 const geometry::OpeningSize kOpening{1.2, 1.0};
 
-/// From this place in the window's frame, heading along its axis but for a turn to the left.
+/// Observation from this place in the window's frame, with a heading along its axis plus a turn to the left.
 Eigen::Isometry3d T_camera_window(const Eigen::Vector3d& position_m, double turn_rad = 0.0) {
   const Eigen::Isometry3d T_window_camera =
       geometry::makePose(geometry::yawRotation(turn_rad) * geometry::R_optical_flu().transpose(), position_m);
@@ -22,7 +22,7 @@ Eigen::Isometry3d T_camera_window(const Eigen::Vector3d& position_m, double turn
 std::optional<detection::WindowObservation> seenFrom(const Eigen::Vector3d& position_m,
                                                      double turn_rad = 0.0) {
   ProjectedDetector sight(1);
-  sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.9);  // whole, once
+  sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.9);  // whole, for a first time
   return sight.look(kCamera, T_camera_window(position_m, turn_rad), kOpening, 1.0);
 }
 
@@ -45,7 +45,7 @@ TEST(ProjectedDetector, CornersAreTheTrueOnesWithTheSpreadTheyState) {
 
 TEST(ProjectedDetector, NearTheWindowSidesLeaveTheImage) {
   EXPECT_EQ(seenFrom({-4.0, 0.0, 0.0})->visibleSides(), 4);
-  const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the image, not yet wider
+  const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the image, not wider yet
   ASSERT_TRUE(near);
   EXPECT_EQ(near->visibleSides(), 2);
   EXPECT_FALSE(near->whole());

@@ -30,7 +30,7 @@ detection::WindowObservation whole(const Quadrilateral& quad) {
   return window;
 }
 
-// Upper and lower side of a window that reaches beyond the image at both sides.
+// Upper and lower side of a window that extends beyond the image at both sides.
 detection::WindowObservation twoSides(double shift_px) {
   detection::WindowObservation window;
   window.target_id = 1;

@@ -19,8 +19,8 @@ TEST(FilterSurvey, BandOfChiSquaredAgreesWithTables) {
   EXPECT_NEAR(many.high, 4.40, 0.01);
 }
 
-// Drift of place and heading, jitter, lasting errors of attitude and corners: all drawn as the filter assumes
-// them.
+// Drift of position and heading, jitter, and lasting errors of attitude and corners, drawn as the filter
+// assumes.
 TEST(FilterSurvey, NormalisedErrorOfTwoHundredApproachesLiesInItsBand) {
   double sum = 0.0, end = 0.0;
   int runs = 0;
@@ -44,7 +44,7 @@ TEST(FilterSurvey, NormalisedErrorOfTwoHundredApproachesLiesInItsBand) {
   EXPECT_LT(end / runs, band.high);
 }
 
-/// Sideways past a window of which nothing is told, 4 m away.
+/// Flies sideways past a window of unknown size, 4 m away.
 struct Sideways {
   geometry::OpeningSize opening;
   std::optional<estimation::FilteredWindow> found;
@@ -67,7 +67,7 @@ Sideways flySideways(std::uint32_t seed, const estimation::FilterParams& errors,
   return {script.opening, tracker.filtered(approach.timeSec())};
 }
 
-// Odometry that drifts by a centimetre a square root of a second, as the world's does.
+// Odometry with a drift of 0.01 m/sqrt(s), like the world's.
 estimation::FilterParams worldsOdometry() {
   estimation::FilterParams errors;
   errors.drift_m_per_sqrt_m = 0.005;
@@ -100,9 +100,9 @@ WidthErrors afterAMetreSideways(const estimation::FilterParams& odometry, std::u
   return out;
 }
 
-/// What such odometry lets anyone know of the scale (Cramer-Rao), were the images without error: the window's
-/// bearing, 4 m away, against the way reported. Drift of place and, at the window, of heading are a random
-/// walk, jitter is white.
+/// Cramer-Rao bound of the scale with such odometry and error-free images: the bearing of a window 4 m away
+/// compared with the reported motion. Drift of position and of heading (at the window) is a random walk,
+/// jitter is white.
 double scaleBound(const estimation::FilterParams& odometry) {
   constexpr double kRateHz = 30.0, kAwayM = 4.0, kWayM = 1.0;
   const double speed_mps = ApproachScript().speed_mps;
@@ -124,7 +124,7 @@ double scaleBound(const estimation::FilterParams& odometry) {
   return std::sqrt(information.inverse()(0, 0));
 }
 
-// The filter's own assumption of drift, three centimetres a square root of a metre, alone is 3 % of a metre.
+// The filter's assumed drift of 0.03 m/sqrt(m) alone is 3 % of one metre.
 TEST(FilterSurvey, TheWidthAfterAMetreSidewaysIsKnownAsWellAsTheOdometryLets) {
   for (const bool assumed : {false, true}) {
     const estimation::FilterParams odometry = assumed ? estimation::FilterParams() : worldsOdometry();

@@ -17,7 +17,7 @@ Eigen::Isometry3d view(double distance_m, double yaw_rad) {
 }
 
 TEST(PoseBound, IsWhatWasPublished) {
-  // Of one pixel of noise a sample: distance, yaw [deg], bound [deg], lateral [m].
+  // For one pixel of noise a sample: distance, yaw [deg], bound [deg], lateral [m].
   const double rows[][4] = {{2, 10, 0.09, 0.003}, {4, 10, 0.35, 0.02}, {4, 30, 0.13, 0.007},
                             {6, 30, 0.25, 0.02},  {8, 10, 1.1, 0.15},  {8, 30, 0.38, 0.04}};
   const auto setup = usualSetup();

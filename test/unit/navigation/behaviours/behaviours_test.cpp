@@ -1,4 +1,4 @@
-/// What each state does by itself: search, height probe, steps, back-off, hold.
+/// The states one by one: search, height probe, steps, back-off, hold.
 #include "navigation/behaviours/behaviours.hpp"
 
 #include <gtest/gtest.h>
@@ -333,7 +333,7 @@ TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
   EXPECT_EQ(back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory).event, Event::kGiveUp);
 }
 
-// An autopilot that changes its velocity by so much a second, in whatever direction it is asked to.
+// An autopilot that limits the magnitude of its acceleration, in any direction.
 TEST(VelocityAlongAxis, WhatAcceleratesSlowlyIsAskedForLittleForwardWhileItIsToMoveAcross) {
   NavigatorParams params = kDefaults;
   const TargetEstimate target = test::targetAtOrigin(0.0);
@@ -371,9 +371,9 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
 }
 
-// A vehicle that was told to go on does so until it answers: it stands too late.
+// Until the vehicle responds, it continues as commanded: it stops too late.
 TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTold) {
-  static constexpr double kBesideM = 0.8;  // no criterion holds there
+  static constexpr double kBesideM = 0.8;  // here no commit criterion holds
   const auto eventAt = [](double distance_m, double told_mps) {
     MissionState memory;
     memory.committed = test::targetAtOrigin(0.0);
@@ -382,14 +382,14 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTol
     return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
   };
   const auto& vehicle = kDefaults.vehicle;
-  const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // it stands so far
+  const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // gained before it responds
   const double needed_m = vehicle.half_length_m + stoppingDistance(gained_mps, vehicle);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
   EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);
 }
 
-// A heading that was wrong and comes back puts the window elsewhere in odom, in the last metre.
+// In the last metre a wrong heading comes back and moves the window in odom.
 TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
   for (const double distance_m : {0.8, 2.5}) {
     MissionState memory;
@@ -453,7 +453,7 @@ TEST(HoldBehaviour, NeverRetreatsThroughTheOpening) {
     std::optional<Event> event;
     for (double now = 0.0; now < 2.0 && !event; now += 0.03) {
       auto situation = situationAt({behind_m, 0, 1.5}, now, false);
-      const bool is_gone = std::fmod(now, 0.15) > 0.1;  // every now and then: nothing can be gone on with
+      const bool is_gone = std::fmod(now, 0.15) > 0.1;  // often interrupted: nothing can resume
       if (is_gone) situation.vehicle.reset();
       event = hold.step(situation, memory).event;
     }
@@ -476,7 +476,7 @@ TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyTheImagesAreMissing) {
   }
 }
 
-/// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
+/// First event of a HOLD that began at 0 s, with constant inputs; empty if there is none within 10 s.
 std::optional<Event> wayOutOf(State from, MissionState memory, bool with_vehicle, bool with_target) {
   Hold hold{kDefaults, from};
   for (double now = 0.0; now < 10.0; now += 0.03) {
@@ -500,7 +500,7 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kBackOff, known, true, false), Event::kWindowLost);
   EXPECT_EQ(wayOutOf(State::kCommit, committed, true, true), Event::kResumed);
   EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false),
-            Event::kWindowLost);  // odometry may be elsewhere
+            Event::kWindowLost);  // odometry may have jumped
   EXPECT_EQ(wayOutOf(State::kCommit, known, true, true), Event::kWindowLost);
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kReacquired);
   nothing.was_in_front = false;

@@ -42,7 +42,7 @@ TEST(MissionClock, CountsTimeButNoJumps) {
   clock.pass(101.5);
   EXPECT_NEAR(clock.inMissionSec(), 1.5, 1e-9);
   EXPECT_NEAR(clock.inStateSec(), 0.5, 1e-9);
-  clock.pass(201.5);  // a second of it may be true
+  clock.pass(201.5);  // one second of it may be true
   EXPECT_NEAR(clock.inMissionSec(), 2.5, 1e-9);
   clock.pass(50.0);
   EXPECT_NEAR(clock.inMissionSec(), 2.5, 1e-9);

@@ -42,7 +42,7 @@ TEST(PositionHold, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
 
 TEST(PositionHold, IsBroughtBackByWhatTheVehicleWasCarriedOffByOnce) {
   MissionState memory;
-  memory.bringPlaceBack({9, 0, 0});  // before there was a place
+  memory.bringPlaceBack({9, 0, 0});  // before there is a place
   rememberPlace(true, standingAt({1, 2, 1}), HoldParams(), memory);
   for (int i = 0; i < 3; ++i) memory.bringPlaceBack({9.5, 0.3, 0});
   EXPECT_LT((*memory.place_odom_m - Eigen::Vector3d(1.5, 2.3, 1)).norm(), 1e-12);
@@ -87,7 +87,7 @@ TEST(PositionHold, LeadsBackNoFasterThanAllowed) {
   EXPECT_NEAR(climbed.z(), -params.hold.speed_mps, 1e-12);
 }
 
-// One that was seen in a wrong place, ahead of the vehicle by now.
+// The other window was seen in a wrong place, which is ahead of the vehicle now.
 TEST(PositionHold, BehindTheWindowNoOtherWindowKeepsItFromItsPlace) {
   const NavigatorParams params = test::withoutGlass();
   MissionState memory;
@@ -102,8 +102,8 @@ TEST(PositionHold, BehindTheWindowNoOtherWindowKeepsItFromItsPlace) {
   }
 }
 
-// The limiter goes on from what was permitted: what is cut again each time comes to nothing, and the vehicle
-// drifts past the window to the wall.
+// The limiter starts from the velocity permitted last. If each step reduced a permitted velocity again,
+// nothing of it would be left, and the vehicle would drift past the window to the wall.
 TEST(PositionHold, WhatIsPermittedLeadsTowardsNoWindowAndIsPermittedAgain) {
   const NavigatorParams params = test::withoutGlass();
   std::mt19937 random(1);

@@ -1,4 +1,4 @@
-/// Whether an opening is flown into, as to whether it is one.
+/// Whether the vehicle flies into an opening, depending on its openness.
 #include "navigation/mission/opening_policy.hpp"
 
 #include <gtest/gtest.h>
@@ -262,7 +262,7 @@ TEST(OpeningPolicy, StandsStillWhileItAsksAboutOneThatIsSeenToBeOpen) {
   EXPECT_LT(std::max(flight.left_m, -flight.right_m), 0.1);
 }
 
-/// The verdict changes at random and as often as not says OPEN.
+/// The verdict changes at random and is OPEN half of the time.
 struct FickleVerdict {
   std::mt19937 random;
   double mean_sec = 1.0;
@@ -278,7 +278,7 @@ struct Fickle {
   int flights = 0, committed = 0, asked = 0;
 };
 
-/// Flights under verdicts that come in any order, without a word of the operator or with it.
+/// Flights with random sequences of verdicts, with or without the operator's confirmation.
 Fickle flyFickle(const NavigatorParams& params, bool confirms) {
   Fickle result;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -316,7 +316,7 @@ TEST(OpeningPolicy, NoSequenceOfVerdictsLeadsIntoWhatMayBeGlazedUnlessConfirmed)
 TEST(OpeningPolicy, TurnsBackFromOneThatTurnsOutToBeClosedOnTheWayIn) {
   test::KinematicPlant plant{test::PlantParams()};
   NavigatorParams params = paramsFor("allow");
-  params.commit.view_margin_m = 0.8;  // it is seen for some more images
+  params.commit.view_margin_m = 0.8;  // visible in some more images
   Navigator navigator(params);
   bool committed = false;
   const Flight flight = flown(plant, navigator, [&](const NavigatorOutput& output) {

@@ -14,7 +14,7 @@ NavigatorInput inputFor(std::uint32_t window_id, double now_sec, double aside_m 
   return input;
 }
 
-/// A navigator that flies at window 1.
+/// A navigator whose target is window 1.
 struct Flying {
   Navigator navigator{test::withoutGlass()};
   double now_sec = 1.0;

@@ -11,12 +11,12 @@ namespace window_ingress::navigation::continuous_odometry_test {
 
 constexpr double kStep = 1.0 / 30.0;
 
-/// A vehicle on a curve, and an odometry of it that errs.
+/// A vehicle on a curve, with erroneous odometry.
 struct Curve {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double yaw = 0.2, time = 10.0, speed = 0.8, aside = 0.1, climb = 0.05;
-  // Errors: shift of the position, turn of the heading, of the axes of the positions, bias of the velocity in
-  // the body.
+  // Errors: offset of the position, turn of the heading, turn of the axes of the positions, bias of the
+  // velocity in the body frame.
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), bias_base = Eigen::Vector3d::Zero();
   double heading_turn = 0.0, axes_turn = 0.0, noise_m = 0.003, noise_mps = 0.0;
   std::mt19937 random{1};
@@ -67,7 +67,7 @@ TEST(ContinuousOdometry, IsTheSameToTheBitWhereNothingIsWrong) {
 TEST(ContinuousOdometry, JumpsAndSlidesDoNotMoveTheVehicle) {
   for (const double slide_sec : {0.0, 0.3, 2.0}) {
     for (const double slide_m : {0.06, 0.3, 1.0, 4.0}) {
-      if (slide_sec > 0.0 && slide_m / slide_sec < 0.15) continue;  // so slow that it is a drift
+      if (slide_sec > 0.0 && slide_m / slide_sec < 0.15) continue;  // so slow that it counts as drift
       for (unsigned seed = 1; seed <= 20; ++seed) {
         Curve curve;
         curve.random.seed(seed);
@@ -194,7 +194,7 @@ TEST(ContinuousOdometry, AHeadingThatComesBackInFlightTurnsNoAxesWhateverTheNois
   EXPECT_EQ(wrong, 0);
 }
 
-// A vehicle that turns meanwhile makes one of two like jumps the smaller one: 0.155 and 0.111 rad were seen.
+// If the vehicle turns meanwhile, two equal jumps appear different, for example as 0.155 and 0.111 rad.
 TEST(ContinuousOdometry, AHeadingThatComesBackIsTakenBackThoughTheVehicleTurns) {
   for (const double turn_rad : {-0.15, 0.1, 0.11, 0.12, 0.13}) {
     Curve curve;
@@ -210,8 +210,8 @@ TEST(ContinuousOdometry, AHeadingThatComesBackIsTakenBackThoughTheVehicleTurns) 
   }
 }
 
-// An attitude that was wrong alone, as the motion has shown, is right again: nothing is left to be judged by
-// a vehicle that hovers in an odometry that wanders.
+// The motion has shown that only the attitude was wrong. When the attitude is right again, nothing has to be
+// decided, although the vehicle hovers and its odometry drifts.
 TEST(ContinuousOdometry, AHeadingThatComesBackWhileTheVehicleHoversTurnsNoAxes) {
   int wrong = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -231,7 +231,7 @@ TEST(ContinuousOdometry, AHeadingThatComesBackWhileTheVehicleHoversTurnsNoAxes) 
   EXPECT_EQ(wrong, 0);
 }
 
-// Neither the way of the position nor the same way turned is then what the velocity says.
+// Then neither the motion of the position nor the turned motion agrees with the velocity.
 TEST(ContinuousOdometry, AHeadingThatJumpsBesideAVelocityThatWandersTurnsNoAxes) {
   int wrong = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
@@ -264,7 +264,8 @@ TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   EXPECT_LT(continuous.carriedM().norm(), 0.05);
 }
 
-// The first pieces of the way are half good and half slid: by their spread it was no surprise.
+// Half of the first pieces of the path are good and half slide. They scatter so widely that the slide could
+// be chance.
 TEST(ContinuousOdometry, ASlideSoonAfterTheStartIsNoChance) {
   for (const double slide_mps : {0.6, 0.95, 1.5})
     for (int begins = 6; begins < 120; begins += 6) {
@@ -316,7 +317,7 @@ TEST(ContinuousOdometry, WhatWasOffFromTheBeginningStaysUnexplainedUntilABiasIsK
   EXPECT_GT(continuous.unexplainedMps(), 0.2);
 }
 
-// By a position that walks nobody knows in two seconds whether the velocity is right.
+// With a drifting position two seconds are too short to tell whether the velocity is right.
 TEST(ContinuousOdometry, WhileThePositionWalksTheVelocityMayBeOffByMoreThanItsMiddleValue) {
   int overlooked = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {
@@ -331,7 +332,7 @@ TEST(ContinuousOdometry, WhileThePositionWalksTheVelocityMayBeOffByMoreThanItsMi
     }
     overlooked += continuous.unexplainedMps() < 0.08;
   }
-  EXPECT_LE(overlooked, 15);  // by the middle value alone 33
+  EXPECT_LE(overlooked, 15);  // 33 by the median alone
 }
 
 TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
@@ -401,7 +402,7 @@ TEST(ContinuousOdometry, ASteadyBiasOfTheVelocityIsLearntAndASlideBesideItIsSeen
   EXPECT_LT((moved - (curve.position - from)).norm(), 0.12) << "of a slide of 1 m";
 }
 
-// A gyro's drift tilts an estimator: when the vehicle has turned, its velocity stays off as it was in the
+// Gyro drift tilts an estimator. After a turn of the vehicle the velocity error keeps its direction in the
 // world for a while.
 TEST(ContinuousOdometry, ABiasThatDoesNotTurnWithTheVehicleMovesNoFrame) {
   Curve curve;

@@ -12,7 +12,7 @@ namespace window_ingress::navigation::disturbance_observer_test {
 
 DisturbanceObserver observer() { return {VehicleParams(), ApproachParams()}; }
 
-/// A first-order vehicle in wind that wants to go straight ahead, the observer's answer taken off its
+/// A first-order vehicle flies straight ahead in wind; the observer's estimate is subtracted from its
 /// command.
 struct Windy {
   double lag_sec;
@@ -42,7 +42,8 @@ TEST(DisturbanceObserver, TakesSteadyWindAwayFromFastAndSlowVehicles) {
   }
 }
 
-// What is steered against later than the vehicle answers pushes it the way of a gust that has turned round.
+// A correction that comes later than the vehicle's response pushes it along with a gust that has turned
+// round.
 TEST(DisturbanceObserver, KnowsTheWindOfNowWhereTheVehicleGainsSpeedSlowly) {
   constexpr double kStep = 1.0 / 30.0, kGainMps2 = 0.5, kWindMps = 0.2, kShownSec = 30.0;
   auto observe = observer();
@@ -72,7 +73,7 @@ TEST(DisturbanceObserver, OneWildSampleIsForgottenAtOnce) {
   EXPECT_LE(observe.disturbance().norm(), params.max_wind_mps * 0.033 / DisturbanceObserver::kWindSec);
 }
 
-// ArduCopter 4.0 overshoots by the way that it was behind, and creeps back after a stop.
+// ArduCopter 4.0 overshoots to make up for its lag, and returns slowly after a stop.
 TEST(DisturbanceObserver, WhatAnAutopilotMakesUpForIsNoWind) {
   auto observe = observer();
   double speed_mps = 0.0, behind_m = 0.0, squares_m2ps = 0.0;
@@ -87,7 +88,7 @@ TEST(DisturbanceObserver, WhatAnAutopilotMakesUpForIsNoWind) {
   EXPECT_LT(std::sqrt(squares_m2ps / (kSec - kSettledSec)), 0.025);
 }
 
-// As assumed it would answer sooner than any other axis, and what it is behind by would be wind.
+// With the assumed response the vertical axis would be the fastest, and its lag would count as wind.
 TEST(DisturbanceObserver, UpAndDownIsAnsweredAsTheRestIsAsLongAsGustsHideIt) {
   constexpr double kStep = 1.0 / 30.0, kGainMps2 = 0.6, kCalmSec = 10.0, kGustMps = 0.3;
   auto observe = observer();
@@ -113,7 +114,7 @@ TEST(DisturbanceObserver, TellsGustsFromWind) {
     steady.update({0, 0.3, 0}, {0, 0, 0}, 0.033);
     gusty.update({0, 0.4 * std::sin(2.0 * t), 0}, {0, 0, 0}, 0.033);
   }
-  const double usual_mps = std::sqrt(observer().gusts()(1, 1));  // of which less and less counts
+  const double usual_mps = std::sqrt(observer().gusts()(1, 1));  // decays with time
   EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.4 * usual_mps);
   EXPECT_NEAR(std::sqrt(gusty.gusts()(1, 1)), 0.2, 0.08);
   EXPECT_LT(std::sqrt(gusty.gusts()(0, 0)), 0.3 * usual_mps);
@@ -153,7 +154,7 @@ TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) 
   EXPECT_EQ(DisturbanceObserver(params.vehicle, params.approach).turnedRad(), 0.0);
 }
 
-// A gust that happens to come while a slow vehicle begins to move is no turn of its axes.
+// A gust that begins together with a slow vehicle's motion is no turn of its axes.
 TEST(DisturbanceObserver, OneGustTurnsNothing) {
   const NavigatorParams params;
   constexpr double kGustMps = 0.55, kStep = 0.03;

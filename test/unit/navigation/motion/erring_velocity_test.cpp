@@ -1,4 +1,4 @@
-// A velocity that errs by more than a steady bias: what it was seen to err by says what is a slide still.
+// A velocity with more error than a steady bias: its observed errors decide whether a difference is a slide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace window_ingress::navigation::erring_velocity_test {
 
 constexpr double kStep = 1.0 / 30.0;
 
-/// A vehicle that flies ahead at 0.8 m/s; what its odometry's position and velocity are off by along y.
+/// A vehicle that flies ahead at 0.8 m/s; position and velocity of its odometry are off along y.
 struct Flight {
   double time = 10.0, shift_m = 0.0, bias_mps = 0.0;
 
@@ -27,7 +27,7 @@ struct Flight {
   }
 };
 
-/// How far the vehicle seems to be carried sideways within `for_sec` after ten seconds [m].
+/// Apparent sideways motion within `for_sec` after ten seconds [m].
 template <typename SetErrors>
 double carriedM(ContinuousOdometry& continuous, double for_sec, SetErrors setErrors) {
   Flight flight;
@@ -44,7 +44,8 @@ double carriedM(ContinuousOdometry& continuous, double for_sec, SetErrors setErr
   return y_m - before_y_m;
 }
 
-// PX4 by satellites: its velocity wanders by 0.2 m/s within seconds, its position by centimetres.
+// PX4 with satellite positioning: its velocity wanders by 0.2 m/s within seconds, its position by
+// centimetres.
 TEST(ErringVelocity, ThatWandersMovesNoFrame) {
   ContinuousOdometry continuous;
   const double carried_m = carriedM(
@@ -66,8 +67,8 @@ TEST(ErringVelocity, IsCorrectedByWhatThePositionDidInTheLastSecond) {
   EXPECT_LT(worst_mps, 0.1);
 }
 
-// Its middle value of some seconds is small, what it is off by in the next second is not: two of 800 drawn
-// flights of PX4 by satellites committed by it, and touched.
+// The median over some seconds is small, but the error of the next second is not. Two of 800 flights of PX4
+// with satellite positioning committed with such a velocity, and touched.
 TEST(ErringVelocity, ThatWandersIsUnexplainedUntilItsBiasIsKnown) {
   ContinuousOdometry continuous;
   Flight flight;
@@ -81,17 +82,17 @@ TEST(ErringVelocity, ThatWandersIsUnexplainedUntilItsBiasIsKnown) {
   EXPECT_GT(least_mps, 0.08);
 }
 
-// Before the opening it erred by 0.2 m/s to one side, in the opening by 0.45 to the other: who was seen to
-// err by much is not believed.
+// In front of the opening the velocity was off by 0.2 m/s to one side, within the opening by 0.45 to the
+// other. A velocity with large observed errors is not believed.
 TEST(ErringVelocity, IsNotBelievedWhenItErrsByMore) {
   ContinuousOdometry continuous;
   const double carried_m = carriedM(continuous, 2.7, [](Flight& flight, bool late) {
     flight.bias_mps = late ? -0.45 : 0.2 * std::sin(1.5 * flight.time);
   });
-  EXPECT_NEAR(carried_m, 0.0, 0.02);  // by its velocity 1.2 m
+  EXPECT_NEAR(carried_m, 0.0, 0.02);  // its velocity says 1.2 m
 }
 
-// One that was seen to err by little does not begin to err by so much.
+// A velocity with small observed errors does not suddenly err that much: the difference is a slide.
 TEST(ErringVelocity, ASlideBesideASteadyBiasIsTakenOff) {
   for (const auto& [wander_mps, slide_mps] : {std::pair{0.0, 0.2}, {0.0, 0.45}, {0.03, 0.45}}) {
     ContinuousOdometry continuous;

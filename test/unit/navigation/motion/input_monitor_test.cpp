@@ -54,7 +54,7 @@ TEST(InputMonitor, AgeCountsInBothDirections) {
   EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image 2.41 s old");
 }
 
-// By what it says of the way since, it is flown; nobody knows what one that stays away would say.
+// Late odometry still describes the motion since its stamp, so it is used. Missing odometry says nothing.
 TEST(InputMonitor, OdometryThatComesLateIsFlownByOneThatStaysAwayIsNot) {
   constexpr double kStep = 0.03;
   auto judge = monitor();
@@ -174,7 +174,7 @@ TEST(InputMonitor, TargetsThatJumpEachTimeAreNeverBelieved) {
     input.target->T_odom_window.translation().y() = i % 2 ? 2.0 : -2.0;
     EXPECT_FALSE(judge.judge(input, 10.0 + 0.1 * i).target_is_new);
   }
-  for (int i = 0; i < 5; ++i) {  // rarely seen, each time elsewhere
+  for (int i = 0; i < 5; ++i) {  // seen rarely, each time in another place
     auto input = inputAt(kThere, 20.0 + i);
     input.target->T_odom_window.translation().y() = 3.0 * (i + 1);
     EXPECT_FALSE(judge.judge(input, 20.0 + i).target);

@@ -73,7 +73,7 @@ TEST(MovingTarget, IsFollowedSidewaysToItsOwnSide) {
   for (const double velocity_mps : {-0.15, 0.15}) {
     TargetEstimate target = swinging(velocity_mps);
     VehicleState vehicle = standingAt(2.0);
-    vehicle.velocity_odom_mps = target.motion.velocity_odom_mps;  // along with it already
+    vehicle.velocity_odom_mps = target.motion.velocity_odom_mps;  // already moving with it
     const auto relative = relate(vehicle, target);
     EXPECT_NEAR(relative.velocity_window_mps.norm(), 0.0, 1e-12);
     const Eigen::Vector3d wish = velocityAlongAxis(relative, target, 0.3, Eigen::Vector3d::Zero(), params);
@@ -114,7 +114,7 @@ TEST(MovingTarget, WithMotionOutOfThisWorldIsRefused) {
   }
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity(), 3.0}) {
     EXPECT_TRUE(refused([&](auto& target) { target.motion.velocity_odom_mps.z() = bad; })) << bad;
-    EXPECT_TRUE(refused([&](auto& target) {  // and one that stands has none
+    EXPECT_TRUE(refused([&](auto& target) {  // a static target has no velocity
       target.motion = {};
       target.motion.velocity_odom_mps.x() = bad;
     })) << bad;

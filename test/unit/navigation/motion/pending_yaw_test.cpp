@@ -11,7 +11,7 @@ namespace window_ingress::navigation::pending_yaw_test {
 
 constexpr double kDtSec = 1.0 / 30.0, kGainHz = 3.0, kLimitRadps = 0.5;
 
-/// Turns after the heading that the rates add up to, late and with too little damping.
+/// Follows the heading that the commanded rates add up to, with delay and too little damping.
 class Autopilot {
  public:
   Autopilot(double delay_sec, double natural_radps, double gain)
@@ -37,7 +37,7 @@ class Autopilot {
   double natural_radps_, gain_, wanted_rad_ = 0.0, rate_radps_ = 0.0;
 };
 
-/// Furthest off the heading asked for in the last two of eight seconds [rad].
+/// Largest heading error in the last two of eight seconds [rad].
 double swing(Autopilot autopilot, bool counts_what_comes) {
   PendingYaw turn;
   double told_radps = 0.0, swing_rad = 0.0;

@@ -12,7 +12,7 @@ namespace window_ingress::navigation::response_estimator_test {
 
 constexpr double kStep = 1.0 / 30.0, kAssumedSec = 0.3;
 
-/// Flies a vehicle with this lag, and acceleration limit, to and fro in wind. \return what is found
+/// Flies a vehicle with this lag and acceleration limit to and fro in wind. \return the estimator
 ResponseEstimator flown(double lag_sec, double acceleration_mps2, double seconds) {
   ResponseEstimator estimator(kAssumedSec);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
@@ -35,7 +35,7 @@ TEST(ResponseEstimator, FindsTheLagOfTheVehicleInWind) {
   }
 }
 
-// Response and limit of acceleration together say how far a vehicle goes before it stands.
+// Response and acceleration limit together determine the stopping distance.
 TEST(ResponseEstimator, KnowsHowFarAVehicleOfLittleAccelerationGoes) {
   const auto stop_m = [](double acceleration_mps2, double response_sec) {
     VehicleParams vehicle;
@@ -53,7 +53,7 @@ TEST(ResponseEstimator, KnowsHowFarAVehicleOfLittleAccelerationGoes) {
   EXPECT_GT(flown(0.3, 10.0, 12.0).accelerationMps2(), 1.2);
 }
 
-// Held by a hand, or on the ground: nobody knows how it would fly.
+// The vehicle is held by a hand or stands on the ground: its response is unknown.
 TEST(ResponseEstimator, AVehicleThatDoesNotAnswerIsBelievedToBeAsAssumed) {
   ResponseEstimator estimator(kAssumedSec);
   for (int i = 0; i < 600; ++i)
@@ -63,7 +63,7 @@ TEST(ResponseEstimator, AVehicleThatDoesNotAnswerIsBelievedToBeAsAssumed) {
   EXPECT_GT(estimator.accelerationMps2(), 100.0);
 }
 
-// Whoever flies by it has to know before it brakes for the first time.
+// The navigator needs the response before it brakes for the first time.
 TEST(ResponseEstimator, KnowsASlowVehicleAfterItsFirstSecondOfAcceleration) {
   for (const double assumed_sec : {0.15, 0.3, 0.6}) {
     ResponseEstimator estimator(assumed_sec);

@@ -6,7 +6,7 @@
 
 namespace window_ingress::openness::edge_klt_test {
 
-/// A soft edge, bright to the right, that leans.
+/// A soft, slanted edge, bright to the right.
 cv::Mat edgeAt(float x, float lean) {
   cv::Mat image(60, 80, CV_8UC1);
   for (int v = 0; v < image.rows; ++v)

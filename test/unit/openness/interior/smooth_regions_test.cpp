@@ -16,7 +16,7 @@ std::uint64_t column(int x) {
   return cells;
 }
 
-// Two halves of a plain image, parted by an upright edge in the middle, with noise.
+// A plain image whose two halves are separated by a vertical edge, with noise.
 cv::Mat halves(double left, double right, double sigma) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(left));
   image.colRange(80, 160).setTo(right);

@@ -47,10 +47,10 @@ cv::Mat greyOf(const cv::Mat& image) {
 }
 
 struct Edge {
-  double middle_px, width_px;  // of a smear that is even over its width
+  double middle_px, width_px;  // of a smear that is uniform over its width
 };
 
-// A vertical edge in row `v` near `u`, by mean and deviation of the profile's slope.
+// Measures a vertical edge in row `v` near `u`: mean and standard deviation of the profile's slope.
 Edge edgeIn(const cv::Mat& grey, int v, double u, int half_px) {
   double sum = 0.0, first = 0.0, second = 0.0;
   const int centre = static_cast<int>(std::lround(u));
@@ -169,7 +169,7 @@ TEST(CameraSensor, BlurMovesNoCorner) {
   EXPECT_LT((sum / corners).norm(), 0.02);
 }
 
-// Mean grey of images of a standing camera, over time.
+// Mean grey of a standing camera's images over time.
 std::vector<double> meansOver(const CameraParams& params, int images, cv::Scalar* last = nullptr) {
   CameraSensor camera(buildScene(Scenario()), params, 1);
   std::vector<double> means;

@@ -18,8 +18,8 @@ namespace window_ingress::simulation::renderer_test {
 
 using geometry::PinholeCamera;
 
-// The house as it is built, in the paint that makes the frame's inner border the one clear edge: a broad
-// white frame before a black room.
+// The shipped house, with colours that make the frame's inner border the only clear edge: a broad white frame
+// in front of a black room.
 Scene whiteFrameBeforeBlackRoom(Scenario& scenario) {
   scenario.window.frame = scenario.house.wall = {255, 255, 255};
   scenario.window.reveal = {0, 0, 0};
@@ -28,7 +28,7 @@ Scene whiteFrameBeforeBlackRoom(Scenario& scenario) {
   return buildScene(scenario);
 }
 
-// Pose of a camera that looks at the opening from a distance, turned by small angles of its own.
+// Pose of a camera that looks at the opening from a distance, with small additional rotations.
 Eigen::Isometry3d lookingFrom(double distance_m, double azimuth_rad, double up_m,
                               const Eigen::Vector3d& turn_rad) {
   const Eigen::Vector3d position(-distance_m * std::cos(azimuth_rad), distance_m * std::sin(azimuth_rad),
@@ -46,7 +46,7 @@ struct Errors {
   int corners = 0;
 };
 
-// Differences between corners measured in images and projected ones, over random views.
+// Differences between measured and projected corners over random views.
 Errors compareCorners(const PinholeCamera& camera, int views,
                       Antialiasing antialiasing = Antialiasing::kEdges) {
   Scenario scenario;
@@ -59,7 +59,7 @@ Errors compareCorners(const PinholeCamera& camera, int views,
   Errors errors;
   cv::Mat ideal, image, grey;
   for (int view = 0; view < views; ++view) {
-    // One after the other: the order in which arguments are drawn is each compiler's own.
+    // One statement each: compilers may evaluate arguments in any order.
     Eigen::Vector3d turn;
     turn.z() = random.uniform(-0.08, 0.08), turn.y() = random.uniform(-0.08, 0.08);
     turn.x() = random.uniform(-0.1, 0.1);
@@ -119,8 +119,8 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersWithMultisampling) {
       compareCorners(PinholeCamera::fromFieldOfView(640, 480, 1.2), 15, Antialiasing::kMultisampling));
 }
 
-// The opening's corners in an image of a lens that bends its sides, in pixels of that image. Each side is
-// looked for piece by piece, and straight in a plane that faces the opening.
+// The opening's corners in the image of a lens that bends its sides, in pixels of that image. Each side is
+// searched in pieces, which are straight in a plane that faces the opening.
 std::optional<geometry::Quadrilateral> fitBentCorners(const cv::Mat& grey, const PinholeCamera& camera,
                                                       const Eigen::Isometry3d& T_camera_window,
                                                       const geometry::OpeningSize& size) {
@@ -196,7 +196,7 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersThroughAFisheyeOf150Degrees) 
   expectSmall(errors);
 }
 
-// Fraction of the pixels in which two images differ by more than `limit` grey levels in any channel.
+// Fraction of pixels in which any channel of two images differs by more than `limit` grey levels.
 double differing(const cv::Mat& a, const cv::Mat& b, int limit) {
   cv::Mat difference;
   cv::absdiff(a, b, difference);

@@ -166,7 +166,7 @@ TEST_F(ScenarioFile, AVehicleMayBeNamedByItsProfileAlone) {
   EXPECT_EQ(profiles, (std::set<std::string>{"crisp", "default"}));
 }
 
-// It would count as a collision before anything has flown.
+// It would be a collision before the flight begins.
 TEST_F(ScenarioFile, AStartInTheRoofIsRefusedByName) {
   const std::string house = "house: {eaves_m: 2.5}\nwindow: {sill_m: 0.8, height_m: 1.0}\n";
   const auto start = [&](double distance_m, double height_m) {
@@ -293,7 +293,7 @@ TEST(Scenario, FaultsOfAnImpossibleWorldAreListed) {
   EXPECT_EQ(faultsOf(scenario).size(), 1u);
 }
 
-// Collects, for each section of the documentation, the rows that it must have.
+// Collects the required rows for each section of the documentation.
 class DocumentedKeys {
  public:
   explicit DocumentedKeys(std::string section) : section_(std::move(section)) {}

@@ -14,22 +14,22 @@
 namespace window_ingress::simulation::vehicle_profiles_test {
 
 constexpr double kStep_sec = 0.0025;
-constexpr double kTolerance = 0.15;  // of each figure
+constexpr double kTolerance = 0.15;  // of each value
 
-// Measured: ArduCopter in software-in-the-loop through MAVROS (`setpoint_velocity/cmd_vel`, its default
-// parameters), and the so3 simulator behind a relay. 0: not measured. Travel: from the stop's command to
-// where the vehicle rests.
+// Measured values: ArduCopter in software in the loop through MAVROS (`setpoint_velocity/cmd_vel`, its
+// default parameters), and the so3 simulator behind a relay. 0: not measured. Travel: distance from the stop
+// command to where the vehicle stands.
 struct Step {
   double asked_mps, reached_mps, t63_sec, t90_sec, peak_part, travel_m;
 };
 struct Measured {
   const char* profile;
   Step slow, fast;
-  double yaw_rate_radps;  // 0.5 asked
+  double yaw_rate_radps;  // for a commanded 0.5
   double odometry_hz, largest_gap_sec;
   bool bursts;
   double odometry_rms_m, odometry_late_sec;
-  double holds_sec;  // the last setpoint, when they stop coming
+  double holds_sec;  // time for which it follows the last setpoint
 };
 
 const std::vector<Measured> kMeasured = {
@@ -65,7 +65,7 @@ const std::vector<Measured> kMeasured = {
      0},
 };
 
-// Vehicle and odometry as they fly together: the vehicle acts on what it believes.
+// Vehicle and odometry together: the vehicle's controller uses this odometry.
 class Flyer {
  public:
   explicit Flyer(const std::string& profile, std::uint32_t seed = 7)
@@ -200,7 +200,7 @@ struct Track {
   std::vector<Eigen::Vector3d> truth;  // at each physics step
 };
 
-// To and fro with 0.5 m/s: a delay must show.
+// Flies to and fro with 0.5 m/s, so that a delay shows.
 Track listen(const std::string& profile, double duration_sec) {
   Flyer flyer(profile);
   Track track;
@@ -223,7 +223,7 @@ Track listen(const std::string& profile, double duration_sec) {
   return track;
 }
 
-// Of the horizontal distance to the truth `late_sec` before each stamp.
+// RMS of the horizontal distance to the truth `late_sec` before each stamp.
 double rmsAgainstTruth(const Track& track, double late_sec) {
   double sum = 0.0;
   int count = 0;
@@ -259,7 +259,7 @@ TEST(VehicleProfiles, OdometryComesAndErrsAsMeasured) {
   }
 }
 
-// Over 2 s of flight: the mean velocity reported less the way truly made, in the body's axes.
+// Mean reported velocity minus mean true velocity over 2 s of flight, in body axes.
 Eigen::Vector3d velocityBias(Flyer& flyer) {
   while (flyer.take()) continue;
   const double start_sec = flyer.now();
@@ -291,7 +291,7 @@ TEST(VehicleProfiles, AGyroThatDriftsPutsTheVelocityOffAsMeasuredAndTheErrorTurn
   }
 }
 
-// Measured over two seconds: 0.15 to 0.29 m/s; of 60 flights 0.12 m/s on each axis, alike for 3.5 s.
+// Measured over two seconds: 0.15 to 0.29 m/s. Over 60 flights: 0.12 m/s on each axis, constant for 3.5 s.
 TEST(VehicleProfiles, Px4sVelocityIsOffAsMeasuredAndOtherwiseWithinSeconds) {
   double off_m2ps2 = 0.0, changed_m2ps2 = 0.0;
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {

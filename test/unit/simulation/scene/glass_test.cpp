@@ -1,4 +1,4 @@
-/// Clear panes: how much they mirror, where the mirrored things seem to stand, and that they are solid.
+/// Clear panes: how much they reflect, where reflections seem to stand, and that they are solid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Scenario glazedBeforeBlackRoom() {
   return scenario;
 }
 
-// Fresnel's law as it is written with the angles of incidence and refraction.
+// Fresnel's law in terms of the angles of incidence and refraction.
 double byAngles(double incidence) {
   const double within = std::asin(std::sin(incidence) / 1.52);
   const double across = std::pow(std::sin(incidence - within) / std::sin(incidence + within), 2);
@@ -50,7 +50,7 @@ TEST(MirrorAt, ExchangesFrontAndBack) {
   EXPECT_TRUE(mirrorAt(kPane_m).inverse().isApprox(mirrorAt(kPane_m)));
 }
 
-// A pane adds its part of what is to be seen from it the other way, and takes as much of the room.
+// A pane adds its reflection, and removes the same share of the room's light.
 TEST(ClearPane, ShowsTheRoomLessWhatItMirrors) {
   Scenario scenario;
   scenario.house.room_light = 1.0;
@@ -74,14 +74,14 @@ TEST(ClearPane, MirrorsMoreOfTheSkyAtASlant) {
   const Scene scene = buildScene(scenario);
   double before = 0.0;
   for (const double y_m : {0.0, 3.0, 5.0}) {
-    const Vector3d from(-2.0, y_m, -1.2);  // from below: it shows the sky
+    const Vector3d from(-2.0, y_m, -1.2);  // from below, so that it reflects the sky
     const double grey = views::greyAt(scene, from, {kPane_m, 0, 0.3});
     EXPECT_GT(grey, before + 3.0) << y_m;
     before = grey;
   }
 }
 
-// A red post before the house, seen in the pane only: where its virtual image behind the pane is.
+// A red post in front of the house, visible only as a reflection: at its virtual image behind the pane.
 cv::Point2d mirroredPost(const Vector3d& post, const Vector3d& from) {
   Scenario scenario = glazedBeforeBlackRoom();
   Scene scene = buildScene(scenario);

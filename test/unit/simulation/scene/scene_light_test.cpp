@@ -101,7 +101,7 @@ TEST(Sunlight, MakesAPatchOnTheFloorOfTheRoomBelowTheOpening) {
   EXPECT_GT(patch, views::greyAt(scene, {-0.6, 0, 0.3}, {beyond_m, 0.0, -1.49}) + 20.0);
 }
 
-// The lawn is one large face that reaches behind the camera: its near part must keep its colour.
+// The lawn is one large face that extends behind the camera. Its near part must keep its colour.
 TEST(Fog, IsThinNearTheCamera) {
   Scenario scenario;
   const Eigen::Vector3d eye(-12.0, 0.0, 0.0), lawn(-10.5, 0.0, -scenario.windowCentreHeight());

@@ -35,7 +35,7 @@ FaultParams fault(const std::string& kind, double at_sec, double duration_sec) {
   return params;
 }
 
-// A sample each 10 ms for `until_sec`, its value counting from 1.
+// One sample every 10 ms for `until_sec`; its value counts from 1.
 std::vector<Arrival> run(const FaultParams& params, double until_sec) {
   FaultLine<Sample, Traits> line;
   std::vector<Arrival> arrivals;

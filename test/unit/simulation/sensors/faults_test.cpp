@@ -212,7 +212,7 @@ TEST(Faults, AClockStandsStillOrJumpsBack) {
   EXPECT_EQ(record({fault("clock", "off")}).clock.size(), wrong.clock.size() - 160);
 }
 
-// Flies forward; where it is after the fault, in metres ahead of and left of the start.
+// Flies forward. \return the position after the fault, in metres ahead and left of the start
 Eigen::Vector3d flown(const FaultParams& params) {
   World world(scenarioWith({params}), 1);
   const Eigen::Isometry3d start = world.truth().T_odom_base;

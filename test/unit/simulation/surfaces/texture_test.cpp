@@ -28,7 +28,7 @@ TEST(Textures, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
     }
 }
 
-// Across the seam neighbours differ no more than the most different neighbours within do.
+// Neighbours across the seam differ no more than the most different neighbours within the texture.
 TEST(Textures, TileWithoutASeam) {
   for (const Texture texture : kTiling)
     for (const std::uint32_t seed : {1u, 2u}) {

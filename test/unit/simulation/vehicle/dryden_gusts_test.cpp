@@ -30,7 +30,7 @@ double correlation(const Series& x, std::size_t lag) {
   return sum / static_cast<double>(x.size() - lag);
 }
 
-// One-sided over w, as MIL-F-8785C writes it.
+// One-sided spectrum over w, as in MIL-F-8785C.
 double standardDensity(int axis, double w) {
   const DrydenScale scale = drydenScale(6.0, 8.0);
   const double T = scale.length_m[axis] / kAirspeed_mps, variance = std::pow(scale.sigma_mps[axis], 2);
@@ -39,7 +39,8 @@ double standardDensity(int axis, double w) {
   return variance * T / M_PI * (1.0 + 3.0 * x) / std::pow(1.0 + x, 2);
 }
 
-// Welch: Hann windows that overlap by half. Element k belongs to w = 2 pi k / (segment * step); one-sided.
+// Welch's method: Hann windows with half overlap. Element k belongs to w = 2 pi k / (segment * step);
+// one-sided.
 Series welch(const Series& x, std::size_t segment, double step_sec) {
   Series window(segment), density(segment / 2, 0.0);
   double power = 0.0;

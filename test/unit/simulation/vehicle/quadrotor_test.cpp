@@ -17,7 +17,7 @@ Quadrotor hovering(double yaw_rad = 0.0, const QuadrotorParams& params = {},
   return Quadrotor(params, geometry::makePose(geometry::yawRotation(yaw_rad), {0, 0, 2.0}), wind);
 }
 
-// Its velocity controller knows the true velocity.
+// Its velocity controller uses the true velocity.
 void step(Quadrotor& vehicle, const Eigen::Vector3d& wind = kStill) {
   vehicle.step(kStep_sec, {wind, kStill}, vehicle.truth().velocity_odom_mps);
 }
@@ -157,7 +157,7 @@ TEST(Quadrotor, StandsOnTheGroundUntilToldToRise) {
   EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 1.8, 0.3);
 }
 
-// The closed answer 1 / (T Tr s^2 + T s + 1) to a step of the wanted tilt.
+// The analytic response 1 / (T Tr s^2 + T s + 1) to a step of the commanded tilt.
 double secondOrder(double time_sec, double T, double Tr) {
   const double natural = 1.0 / std::sqrt(T * Tr), damping = 0.5 * std::sqrt(T / Tr);
   const double damped = natural * std::sqrt(1.0 - damping * damping), decay = natural * damping;
@@ -168,7 +168,7 @@ double secondOrder(double time_sec, double T, double Tr) {
 TEST(Quadrotor, AttitudeAnswersAsItsSecondOrderModel) {
   QuadrotorParams params;
   params.drag_per_sec = params.velocity_integral_per_sec = 0.0;
-  params.max_acceleration_mps2 = 2.0;  // reached all the time: the wanted tilt is a step
+  params.max_acceleration_mps2 = 2.0;  // always reached: the commanded tilt is a step
   for (const double gain_error : {0.0, 0.15}) {
     params.attitude_gain_error = gain_error;
     const double T = params.attitude_time_constant_sec / (1.0 + gain_error);

@@ -9,7 +9,7 @@ namespace window_ingress::simulation::velocity_controller_test {
 constexpr double kStep_sec = 0.0025;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-// Only what is fed forward: the acceleration of the shaped setpoint.
+// Only the feed-forward term: the acceleration of the shaped setpoint.
 QuadrotorParams shapingOnly() {
   QuadrotorParams params;
   params.acceleration_feed_forward = 1.0;

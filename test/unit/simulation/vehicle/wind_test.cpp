@@ -39,7 +39,7 @@ TEST(Wind, GustsHaveTheStandardsSizeOutsideAndLittleInside) {
   WindParams params;
   params.gusts = "dryden";
   params.wind_20ft_mps = 6.0;
-  params.y_mps = 3.0;  // along it is now the window's y
+  params.y_mps = 3.0;  // along the window's y now
   double outside[3] = {0, 0, 0}, inside = 0.0;
   const int count = 4000;
   const double step_sec = 2.0;
