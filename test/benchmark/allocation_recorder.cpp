@@ -21,13 +21,13 @@ struct Stack {
   int depth;
 };
 
-std::array<Stack, 1 << 17> stacks;  // pages that are never touched cost nothing
+std::array<Stack, 1 << 17> stacks;  // untouched pages cost nothing
 std::size_t taken = 0, overflow = 0, bytes = 0;
 bool recording = false;
 
 void note(std::size_t size) {
   if (!recording) return;
-  recording = false;  // the stack walk may ask for memory itself
+  recording = false;  // the stack walk may allocate memory itself
   bytes += size;
   if (taken < stacks.size()) {
     stacks[taken].depth = backtrace(stacks[taken].frames.data(), kDepth);
@@ -39,7 +39,7 @@ void note(std::size_t size) {
 }
 
 struct Frame {
-  std::string library, function;  ///< the function is empty if its library does not tell its name
+  std::string library, function;  ///< function is empty if the library does not name it
 };
 
 std::string demangled(const char* symbol) {
@@ -56,7 +56,7 @@ Frame resolve(void* address) {
   return {path.substr(path.rfind('/') + 1), info.dli_sname ? demangled(info.dli_sname) : ""};
 }
 
-/// Resolving is slow, and the same places come again and again.
+/// Resolving is slow, and the same addresses repeat.
 const Frame& frameAt(void* address) {
   static std::map<void*, Frame> known;
   const auto found = known.find(address);
@@ -65,14 +65,14 @@ const Frame& frameAt(void* address) {
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-/// The C and C++ libraries, and this program: it only measures, but it holds copies of templates.
+/// The C and C++ libraries, and this program, which only measures but holds copies of templates.
 bool isRuntime(const Frame& frame) {
   for (const char* name : {"libc.", "libstdc++", "benchmark_"})
     if (frame.library.rfind(name, 0) == 0) return true;
   return false;
 }
 
-/// Templates of the standard library and of Eigen belong to whoever uses them, wherever they were compiled.
+/// Templates of the standard library and of Eigen count for their caller, wherever they were compiled.
 bool isTemplate(const Frame& frame) {
   const std::string head = frame.function.substr(0, frame.function.find('('));
   return head.rfind("std::", 0) == 0 || has(head, " std::") || has(head, "__gnu_cxx::") ||
@@ -82,21 +82,21 @@ bool isTemplate(const Frame& frame) {
 bool isOurs(const Frame& frame) { return has(frame.library, "window_ingress"); }
 bool isOpencv(const Frame& frame) { return has(frame.library, "opencv"); }
 
-/// Functions of OpenCV that only do what they are told: make room.
+/// Functions of OpenCV that only allocate what their caller asks for.
 bool makesRoom(const std::string& function) {
   for (const char* name : {"cv::Mat::", "cv::fastMalloc", "cv::MatAllocator", "cv::Mat_<", "cv::AutoBuffer"})
     if (function.rfind(name, 0) == 0) return true;
   return false;
 }
 
-/// Without arguments and without our own name spaces.
+/// The name without arguments and without our own name spaces.
 std::string shortName(std::string name) {
   for (const char* part : {"window_ingress::", "detection::", "(anonymous namespace)::"})
     for (std::size_t at; (at = name.find(part)) != std::string::npos;) name.erase(at, std::strlen(part));
   return name.substr(0, name.find('('));
 }
 
-/// The frames between the one who asked and the benchmark, innermost first.
+/// The frames between the allocation and the benchmark, innermost first.
 std::vector<const Frame*> meaningful(const Stack& stack) {
   std::vector<const Frame*> frames;
   for (int i = 0; i < stack.depth; ++i) {
@@ -106,14 +106,14 @@ std::vector<const Frame*> meaningful(const Stack& stack) {
   return frames;
 }
 
-/// The function that is called from outside its library last, or the nearest one inside that has a name.
+/// The last function that is called from outside its library, or the nearest inner one with a name.
 std::string nameOf(const std::vector<const Frame*>& frames, std::size_t begin, std::size_t end) {
   for (std::size_t i = end; i-- > begin;)
     if (!frames[i]->function.empty()) return shortName(frames[i]->function);
   return frames[end - 1]->library;
 }
 
-/// Of ours, local functions go by the name of the one that calls them.
+/// Our local functions count as the function that calls them.
 std::string ourName(const std::vector<const Frame*>& frames, std::size_t from) {
   for (std::size_t i = from; i < frames.size(); ++i)
     if (!frames[i]->function.empty()) return (i > from ? "local in " : "") + shortName(frames[i]->function);
@@ -159,7 +159,7 @@ Recording stopRecording() {
 
 }  // namespace window_ingress::bench
 
-// The C library's own, under the names by which it exports them to those who replace it.
+// The C library's own functions, under the names that it exports for replacements.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

@@ -1,5 +1,5 @@
-/// Records who asks for memory: takes the place of the C library's malloc in the program that it is linked
-/// into. Of one thread.
+/// Records where memory is allocated. It replaces the C library's malloc in the program that links it. For
+/// one thread.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 namespace window_ingress::bench {
 
 enum class Whose {
-  kOurs,    ///< our own code, or a cv::Mat that it makes
-  kOpencv,  ///< something inside a function of OpenCV
+  kOurs,    ///< our own code, or a cv::Mat that it creates
+  kOpencv,  ///< inside a function of OpenCV
   kOther    ///< another library
 };
 
 const char* toString(Whose whose);
 
-/// Where memory was asked for: "function" of ours, or "function of OpenCV < function of ours that calls it".
+/// Where memory was allocated: "function" of ours, or "function of OpenCV < function of ours that calls it".
 struct AllocationSite {
   Whose whose = Whose::kOther;
   std::string where;
@@ -28,9 +28,9 @@ struct AllocationSite {
 };
 
 struct Recording {
-  std::vector<AllocationSite> sites;  ///< one an allocation
-  std::size_t overflow = 0;           ///< further ones, for which there was no room
-  std::size_t bytes = 0;              ///< of all
+  std::vector<AllocationSite> sites;  ///< one for each allocation
+  std::size_t overflow = 0;           ///< allocations for which there was no room
+  std::size_t bytes = 0;              ///< of all allocations
 };
 
 void startRecording();

@@ -1,4 +1,4 @@
-/// Allocations an image in steady state, by who asks for them.
+/// Allocations an image in steady state, by place.
 /// Usage: benchmark_allocations [--frames=FOLDER] [--sites=N] [SUBJECT...]
 /// Prints JSON: for each subject/sequence the counts an image of "ours", "opencv" (inside a function of
 /// OpenCV that we call) and "other", and the N sites that ask most often.
@@ -19,7 +19,7 @@ namespace {
 using namespace window_ingress::bench;
 using nlohmann::json;
 
-constexpr std::size_t kMinImages = 30;  ///< counted; what happens now and then must happen among them
+constexpr std::size_t kMinImages = 30;  ///< counted ones; rare events must occur among them
 
 json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double images, std::size_t limit) {
   std::vector<std::pair<std::size_t, AllocationSite>> order;
@@ -33,7 +33,7 @@ json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double images,
   return sites;
 }
 
-/// Whole turns through the sequence: some for warming up, as many counted.
+/// Whole passes through the sequence: some to warm up, as many to count.
 json count(const Subject& subject, const Sequence& sequence, std::size_t limit) {
   const Step step = subject.start(sequence);
   if (!step) return {};

@@ -1,4 +1,4 @@
-/// The arguments of the measuring programs: --key=value, and words that choose what is measured.
+/// Arguments of the measuring programs: --key=value, and words that select what is measured.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class Arguments {
     }
   }
 
-  /// Of --key=value, or `otherwise`.
+  /// Value of --key=value, or `otherwise`.
   std::string value(const std::string& key, const std::string& otherwise) const {
     const std::string head = "--" + key + "=";
     for (const std::string& option : options_)
@@ -24,7 +24,7 @@ class Arguments {
     return otherwise;
   }
 
-  /// Whether the words choose this; no words choose all.
+  /// True if the words select this name; no words select everything.
   bool names(const std::string& what) const {
     return words_.empty() || std::find(words_.begin(), words_.end(), what) != words_.end();
   }

@@ -1,4 +1,4 @@
-/// A framed window in a wall of bricks, drawn: the hard case for everything that follows edges.
+/// A drawn window with a frame in a brick wall: the hard case for edge tracking.
 #pragma once
 
 #include <cmath>
@@ -9,14 +9,14 @@
 
 namespace window_ingress::bench {
 
-/// In metres on the wall, axes right and down, origin at the middle of the opening.
+/// In metres on the wall: axes right and down, origin at the centre of the opening.
 struct BrickWall {
   double opening_m = 1.0;  ///< square
   double frame_m = 0.05;
   double brick_m = 0.24, course_m = 0.075, joint_m = 0.010;
 };
 
-/// The camera looks square at the wall. Drawn four times as large and averaged down.
+/// The camera faces the wall. The image is drawn four times as large and averaged down.
 inline cv::Mat drawBrickWall(const BrickWall& wall, const geometry::PinholeCamera& camera,
                              const cv::Point3d& position_m, unsigned seed) {
   constexpr int kFine = 4;
@@ -33,7 +33,7 @@ inline cv::Mat drawBrickWall(const BrickWall& wall, const geometry::PinholeCamer
                   cv::FILLED);
   };
   cv::Mat fine(kFine * camera.height, kFine * camera.width, CV_8UC3, cv::Scalar(165, 170, 175));
-  cv::RNG clay(1);  // the wall is the same in all its images
+  cv::RNG clay(1);  // the wall is equal in all images
   for (int row = -100; row < 100; ++row)
     for (int column = -40; column < 40; ++column) {
       const double left = (column + (row % 2 ? 0.5 : 0.0)) * wall.brick_m, top = row * wall.course_m;

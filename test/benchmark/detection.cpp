@@ -1,6 +1,6 @@
 /// Time of the detector, its stages and its peers on the same images, one thread, in one run.
 /// Usage: benchmark_detection --frames=FOLDER [options of Google Benchmark]
-/// Rows are called subject/sequence. Counter `found`: part of the images in which it found something.
+/// Rows are called subject/sequence. Counter `found`: fraction of the images with a result.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace window_ingress::bench;
 
-/// A step, made and warmed up at its first use and kept over all repetitions.
+/// A step, created and warmed up at its first use and kept over all repetitions.
 class WarmStep {
  public:
   WarmStep(const Subject& subject, const Sequence& sequence) : subject_(subject), sequence_(sequence) {}
@@ -53,7 +53,7 @@ void registerAll(const std::vector<Sequence>& sequences) {
     }
 }
 
-/// The value of --frames=..., which is taken out of the arguments.
+/// Removes --frames=... from the arguments and returns its value.
 std::string takeFolder(int& argc, char** argv) {
   const std::string option = "--frames=";
   for (int i = 1; i < argc; ++i)

@@ -15,7 +15,7 @@ constexpr int kImages = 8;
 constexpr double kRunUpSec = 1.0;
 constexpr unsigned kSeed = 3;
 
-/// A flight towards the window and a little sideways, from the scenario's start, looking at the target.
+/// A flight towards the window and a little sideways, from the scenario's start, facing the target.
 bench::Sequence rendered(const std::string& name, const std::string& scenario_file) {
   auto scenario = simulation::loadScenario(
       std::string(WINDOW_INGRESS_SOURCE_DIR) + "/config/scenarios/" + scenario_file, kSeed);

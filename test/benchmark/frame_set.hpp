@@ -1,4 +1,4 @@
-/// The images that all measurements share, in a folder: lossless files and an index.
+/// The images that all measurements share, in a folder with lossless files and an index.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace window_ingress::bench {
 
-/// Successive images of one camera before one target.
+/// Successive images of one camera in front of one target.
 struct Sequence {
   std::string name;                ///< of the rows in the tables
   std::string kind;                ///< "rendering", "drawn", "recording" or "photograph"
@@ -32,7 +32,7 @@ std::vector<Sequence> readFrameSet(
     const std::string& folder,
     const std::function<bool(const std::string&)>& wanted = [](const std::string&) { return true; });
 
-/// Adds one sequence to the index, made if need be, and writes its images as PNG.
+/// Adds one sequence to the index, creates the index if needed, and writes the images as PNG.
 void addToFrameSet(const std::string& folder, const Sequence& sequence);
 
 }  // namespace window_ingress::bench

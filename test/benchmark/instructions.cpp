@@ -1,7 +1,7 @@
-/// Instructions an image: the figure that does not depend on the machine's load. Under callgrind, which
+/// Instructions an image, a figure that does not depend on the machine's load. Runs under callgrind, which
 /// writes one file for each subject and sequence, with "subject/sequence" in its head:
 ///   valgrind --tool=callgrind --instr-atstart=no benchmark_instructions --frames=FOLDER [SUBJECT...]
-/// The first images of each sequence are used, after some for warming up; how many are counted, it prints.
+/// Uses the first images of each sequence, after some to warm up; prints how many are counted.
 #include <valgrind/callgrind.h>
 
 #include <algorithm>

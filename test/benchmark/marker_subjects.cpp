@@ -1,5 +1,5 @@
-/// Detectors of printed markers: they look for quadrilaterals, too, and are known for being fast. Both get
-/// the grey image ready made. Each is left out where its library is not installed.
+/// Detectors of printed markers. They search for quadrilaterals, too, and are known to be fast. Both get a
+/// grey image. A detector whose library is not installed is left out.
 #include <memory>
 #include <opencv2/imgproc.hpp>
 

@@ -1,6 +1,6 @@
-/// Memory of search and track over many images, as fast as it goes, as JSON: resident size at the start,
-/// after a tenth and at the end. Every image goes through track, every tenth through search, the sequences
-/// in turn. Exit code 1 if it grows or is more than what is allowed.
+/// Memory of search and track over many images at full speed, as JSON: resident size at the start, after a
+/// tenth and at the end. Every image is tracked, every tenth is searched, and the sequences alternate. Exit
+/// code 1 if memory grows or exceeds its limit.
 ///
 /// Usage: benchmark_memory [--frames=FOLDER] [--pictures=108000] [SEQUENCE...]
 #include <unistd.h>
@@ -30,7 +30,7 @@ double residentMegabytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// Those of our subjects that apply, one step a sequence.
+/// Our applicable subjects, one step for each sequence.
 std::vector<Step> stepsOf(const std::string& subject, const std::vector<Sequence>& sequences) {
   std::vector<Step> steps;
   for (const Subject& own : ownSubjects())

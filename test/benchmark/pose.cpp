@@ -1,5 +1,5 @@
 /// Time of a pose from one image: the estimator (checks, homography, both solutions, spreads, aspect) beside
-/// OpenCV's methods on the corners of the same borders, one thread, in one run.
+/// OpenCV's methods on the corners of the same borders. One thread, one run.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core/utility.hpp>

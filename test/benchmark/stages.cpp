@@ -10,7 +10,7 @@ namespace {
 
 using namespace window_ingress::detection;
 
-/// The stages in the order of the search, with what those before gave, on the first image.
+/// The stages in the order of the search, each with the results of those before it, on the first image.
 struct Stages {
   explicit Stages(const Sequence& from) : sequence(from), image(from.images.front()) {
     level = preprocess.run(image);

@@ -17,7 +17,7 @@ Step search(const Sequence& sequence) {
   };
 }
 
-/// An image in which the window was followed says nothing of contours and segments: nobody looked for any.
+/// An image in which the window was tracked has no contours and segments, because nothing was searched.
 Step track(const Sequence& sequence) {
   auto tracker = std::make_shared<detection::WindowTracker>(detection::DetectorParams());
   if (sequence.reference) tracker->setReference(*sequence.reference);

@@ -1,4 +1,4 @@
-/// What is measured, each by the same name in every measurement.
+/// The measured subjects, with the same names in every measurement.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,11 @@
 
 namespace window_ingress::bench {
 
-/// Handles one image, the next of its sequence, to and fro. \return whether it found something; of `track`:
-/// whether it followed the window without a search
+/// Processes one image, the next of its sequence, forwards and backwards. \return whether it found something;
+/// for `track`: whether it tracked the window without a search
 using Step = std::function<bool()>;
 
-/// The number of the next image: 0, 1, .. n-1, n-2, .. 0, and so on, so that the camera never jumps.
+/// Index of the next image: 0, 1, .. n-1, n-2, .. 0, and so on, so that the camera never jumps.
 class ToAndFro {
  public:
   explicit ToAndFro(std::size_t count) : count_(count) {}
@@ -26,18 +26,18 @@ class ToAndFro {
 
 struct Subject {
   std::string name;
-  /// Step over a sequence, all made that can be made beforehand; empty: the subject does not apply to it.
+  /// A step over a sequence, with everything prepared in advance; empty if the subject does not apply to it.
   /// The sequence must outlive the step.
   std::function<Step(const Sequence&)> start;
 };
 
 std::vector<Subject> ownSubjects();   ///< search, track
-std::vector<Subject> ownStages();     ///< the stages of the search, each on what those before it gave
+std::vector<Subject> ownStages();     ///< stages of the search, each with the results of those before it
 std::vector<Subject> peerSubjects();  ///< composition, composition_without_hough
 std::vector<Subject>
 markerSubjects();  ///< apriltag_decimate_2, apriltag_decimate_1, aruco: those that are installed
 
-/// All of them.
+/// All subjects.
 std::vector<Subject> allSubjects();
 
 }  // namespace window_ingress::bench

@@ -1,4 +1,4 @@
-/// What a fuzzer gives, taken apart into values; where it ends, zeros follow.
+/// Splits the fuzzer's bytes into values; zeros follow at their end.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Bytes {
   }
   /// 0 to `end` - 1
   std::size_t below(std::size_t end) { return take<std::uint16_t>() % end; }
-  /// Mostly a number of the range, now and then any bits at all.
+  /// Usually a number of the range, sometimes arbitrary bits.
   double number(double minimum, double maximum) {
     if (take<std::uint8_t>() % 16 == 0) return take<double>();
     return minimum + (maximum - minimum) * take<std::uint16_t>() / 65535.0;

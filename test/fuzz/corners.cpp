@@ -14,7 +14,7 @@ window_ingress::WindowDetection anyDetection(Bytes& bytes, double stamp_sec) {
   window_ingress::WindowDetection message;
   message.header.stamp = ros::Time(stamp_sec);
   message.detected = bytes.take<std::uint8_t>() % 16 > 0;
-  const double spread = bytes.take<std::uint8_t>() % 4 * 100.0;  // about a window, or anything
+  const double spread = bytes.take<std::uint8_t>() % 4 * 100.0;  // near a window, or anywhere
   for (int i = 0; i < 4; ++i) {
     const std::uint8_t seen = bytes.take<std::uint8_t>();
     message.corners[i].visible = seen % 8 > 0;

@@ -9,7 +9,7 @@
 namespace window_ingress::fuzz {
 namespace {
 
-// Rectangles on the image: without them hardly anything gets past the edges.
+// Rectangles in the image: without them hardly any input passes the edge stage.
 void drawWindows(Bytes& bytes, cv::Mat& image) {
   for (int i = bytes.take<std::uint8_t>() % 6; i > 0; --i) {
     std::array<cv::Point, 4> quad;
@@ -49,7 +49,7 @@ void detection(const std::uint8_t* data, std::size_t size) {
   tracker.reset();
   const bool calibrated = bytes.take<std::uint8_t>() % 2 > 0;
   const int images = 1 + bytes.take<std::uint8_t>() % 3;
-  Bytes scene = bytes;  // the same for every image but for what is drawn on it
+  Bytes scene = bytes;  // equal for all images except for the drawing
   for (int i = 0; i < images; ++i) {
     Bytes drawing = bytes;
     const adapters::DecodedImage guarded = adapters::decode(smallImage(scene), {});

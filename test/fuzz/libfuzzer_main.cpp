@@ -1,4 +1,4 @@
-// One program a target: compiled with FUZZ_TARGET.
+// One program for each target, compiled with FUZZ_TARGET.
 #include "targets.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-/// Bytes under the name of a file, without a disk.
+/// Bytes under a file name, without a disk.
 #pragma once
 
 #include <sys/mman.h>

@@ -12,7 +12,7 @@
 namespace window_ingress::fuzz {
 namespace {
 
-// What each field allows for itself may still contradict each other: constructors say so, and nothing else.
+// Valid fields may still contradict each other: constructors report this, and throw nothing else.
 template <typename Make>
 void construct(Make make) {
   try {

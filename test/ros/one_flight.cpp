@@ -1,5 +1,5 @@
-/// For one_flight_test.py: flies and records a flight, and says of its recording what the nodes would say,
-/// once as replay sees it and once as the closed loop does.
+/// For one_flight_test.py. Flies and records a flight, and writes from its recording what the nodes would
+/// publish, once by replay and once by the closed loop's perception.
 ///   one_flight fly SCENARIO PARAMS FLIGHT.bag
 ///   one_flight see PARAMS FLIGHT.bag REPLAY.bag LOOP.bag
 #include <rosbag/bag.h>
@@ -64,7 +64,7 @@ struct Facts {
   Eigen::Isometry3d T_base_camera;
 };
 
-/// Writes what the detector and the pose node publish of an image: all but the time that it took.
+/// Writes what the detector and the pose node publish for an image, except for the processing time.
 class Words {
  public:
   Words(const std::string& file, const Facts& facts) : bag_(file, rosbag::bagmode::Write), facts_(facts) {}
@@ -154,8 +154,7 @@ void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
   });
 }
 
-/// Hands over what was recorded as the world hands it over in the flight: as it comes, an image waits for
-/// nothing.
+/// Passes on the recorded messages in their order of arrival, as the world does in flight: no image waits.
 class Loop {
  public:
   Loop(const Facts& facts, const evaluation::FlightParams& params, Words& words)
@@ -175,7 +174,7 @@ class Loop {
       look(*image);
   }
 
-  /// That no odometry came after the last image.
+  /// States that no odometry follows the last image.
   void finish() {
     eyes_.tracker().flush();
     tell();
@@ -210,11 +209,11 @@ class Loop {
   const Facts& facts_;
   Words& words_;
   evaluation::FlightPerception eyes_;
-  std::optional<std_msgs::Header> waiting_;  // an image that odometry has not caught up with
+  std::optional<std_msgs::Header> waiting_;  // an image that waits for odometry
   double odometry_sec_ = -1.0;
 };
 
-// What came at the same time is in a bag in no order: the flight takes it in that of these topics.
+// A bag does not order messages of the same time. The flight takes them in the order of these topics.
 void seeAsLoop(const rosbag::Bag& bag, const Facts& facts, const evaluation::FlightParams& params,
                Words& words) {
   const adapters::BagTopics t = adapters::chooseTopics(bag, {});

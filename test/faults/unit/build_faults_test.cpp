@@ -1,4 +1,4 @@
-/// M95: a build that takes NaN for impossible.
+/// M95: a build whose compiler flags assume that NaN is impossible.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ Compiled compile(const std::string& header, const std::string& flags) {
 }
 
 TEST(Fault, M95_FastMathDoesNotCompile) {
-  const volatile double zero = 0.0;  // keeps the compiler from folding the question away
+  const volatile double zero = 0.0;  // prevents constant folding
   EXPECT_FALSE(std::isfinite(zero / zero) || std::isfinite(1.0 / zero)) << "this build itself";
   for (const std::string header : {"geometry/frames.hpp", "geometry/pinhole_camera.hpp"}) {
     const Compiled plain = compile(header, "-O2");

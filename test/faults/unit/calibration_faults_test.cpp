@@ -1,4 +1,4 @@
-/// M25 to M36: calibrations as they should not come.
+/// M25 to M36: invalid calibrations.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -68,7 +68,7 @@ TEST(Fault, M26_NumbersThatAreNone) {
 TEST(Fault, M27_ZeroP) {
   CameraInfo info = test::sampleCameraInfo();
   info.P.assign(0.0);
-  for (int by_hand = 0; by_hand < 2; ++by_hand) {  // who writes K by hand leaves R zero, too
+  for (int by_hand = 0; by_hand < 2; ++by_hand) {  // a K written by hand leaves R zero, too
     const auto raw = cameraFromMsg(info, false);
     ASSERT_TRUE(raw) << raw.reason;
     EXPECT_EQ(raw.value->fx, 554.0);
@@ -122,7 +122,7 @@ double worstAgainstOpenCv(const geometry::PinholeCamera& camera, const CameraInf
   return worst;
 }
 
-// The image that this lens makes of what an ideal camera of the same K would see.
+// The image of this lens, computed from the image of an ideal camera with the same K.
 cv::Mat bent(const cv::Mat& ideal, const geometry::PinholeCamera& camera) {
   cv::Mat map(ideal.size(), CV_32FC2), seen;
   for (int y = 0; y < map.rows; ++y)
@@ -173,7 +173,7 @@ TEST(Fault, M32_SizesThatAreNone) {
   expectRefused(all);
 }
 
-// Where the pixel of the full image comes to lie in the image as it is sent.
+// Position of a full-resolution pixel in the image as it is sent.
 Eigen::Vector2d cropped(const Eigen::Vector2d& full, double x, double y, double binning) {
   return {(full.x() - x + 0.5) / binning - 0.5, (full.y() - y + 0.5) / binning - 0.5};
 }

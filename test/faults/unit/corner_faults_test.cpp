@@ -1,4 +1,4 @@
-/// M47 to M53: corners as they should not come, and poses that must not be believed.
+/// M47 to M53: invalid corners, and poses that must be rejected.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -37,7 +37,7 @@ detection::WindowObservation seen(const Eigen::Isometry3d& T, double sigma_px = 
   return seen(*geometry::projectOpening(kCamera, T, kOpening), sigma_px);
 }
 
-// Through the message, as it comes from the topic.
+// Converted by the message, as it arrives on the topic.
 PoseResult throughTheMessage(const detection::WindowObservation& window) {
   auto message = adapters::toMsg(window);
   message.header.stamp = ros::Time(window.stamp_sec);
@@ -66,7 +66,7 @@ void expectDropped(const std::vector<BadCorners>& all) {
 const Vector2d a(200, 150), b(400, 150), c(400, 330), d(200, 330);
 
 TEST(Fault, M47_TooFewOrTooManyCorners) {
-  for (int visible = 0; visible < 4; ++visible) {  // four places: 0 to 3 of them seen, no borders
+  for (int visible = 0; visible < 4; ++visible) {  // 0 to 3 of the four corners visible, no borders
     auto window = seen({a, b, c, d});
     for (int i = visible; i < 4; ++i) window.corner_visible[i] = false;
     const PoseResult result = throughTheMessage(window);
@@ -175,7 +175,7 @@ TEST(Fault, M52_PosesBeyondTheLimits) {
     EXPECT_NE(result.detail.find('>'), std::string::npos) << "with numbers: " << result.detail;
     said += (said.empty() ? "" : "; ") + result.detail;
   }
-  // No observation of whatever corners gives a window behind the camera.
+  // No observation, with any corners, gives a window behind the camera.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(-300, 940), y(-300, 780);
   int posed = 0;

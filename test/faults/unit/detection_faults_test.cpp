@@ -1,4 +1,4 @@
-/// M03, M05, M11, M13, M16: what the detector makes of odd images that could be read.
+/// M03, M05, M11, M13, M16: the detector with odd but readable images.
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
@@ -50,7 +50,7 @@ TEST(Fault, M03_EmptyAndTinyImages) {
         const DecodedImage guarded = decode(message(image, type == CV_8UC1 ? "mono8" : "bgr8"), {});
         detection::TrackInput input;
         input.stamp_sec = ++searched;
-        input.image = width * height > 0 ? guarded.image : image;  // past the guard, too
+        input.image = width * height > 0 ? guarded.image : image;  // also without the guard
         refused += guarded.image.empty();
         EXPECT_EQ(guarded.image.empty(), width * height == 0) << guarded.reason;
         std::optional<detection::WindowObservation> seen;
@@ -73,7 +73,7 @@ TEST(Fault, M05_PaddedRows) {
   RecordProperty("seen", "1, 2 and 64 bytes more a row: the same corners to the last bit");
 }
 
-// The sensor's own image, one colour a pixel.
+// The sensor's raw image, with one colour a pixel.
 cv::Mat mosaic(const cv::Mat& bgr, const std::string& pattern) {
   cv::Mat result(bgr.size(), CV_8UC1);
   for (int y = 0; y < bgr.rows; ++y)
@@ -90,7 +90,7 @@ cv::Mat uyvy(const cv::Mat& bgr) {
   for (int y = 0; y < bgr.rows; ++y)
     for (int x = 0; x < bgr.cols; ++x) {
       const cv::Vec3b left = yuv.at<cv::Vec3b>(y, x - x % 2), right = yuv.at<cv::Vec3b>(y, x - x % 2 + 1);
-      const int channel = x % 2 == 0 ? 1 : 2;  // of two pixels the mean
+      const int channel = x % 2 == 0 ? 1 : 2;  // mean of two pixels
       const auto colour = static_cast<uchar>((left[channel] + right[channel]) / 2);
       result.at<cv::Vec2b>(y, x) = {colour, yuv.at<cv::Vec3b>(y, x)[0]};
     }
@@ -163,7 +163,7 @@ cv::Mat salt(double part) {
   return image;
 }
 
-// Small boxes on the whole image, as many as there are places.
+// Small boxes in the whole image, as many as fit.
 cv::Mat boxes(int pitch_px, int line_px) {
   cv::Mat image(480, 640, CV_8UC3, cv::Scalar::all(200));
   const int side = pitch_px - std::max(1, pitch_px / 3);
@@ -187,7 +187,7 @@ TEST(Fault, M16_ImagesWithNothingOrFarTooMuchInThem) {
                                               {"boxes 10 px", boxes(10, cv::FILLED)},
                                               {"boxes 24 px", boxes(24, cv::FILLED)},
                                               {"boxes 32 px", boxes(32, 1)}};
-  constexpr double kLowScore = 0.5;  // 0.4 is the least that counts
+  constexpr double kLowScore = 0.5;  // the least score that counts is 0.4
   int windows = 0;
   double slowest_ms = 0.0;
   std::string slowest;

@@ -1,4 +1,4 @@
-/// M61, M66: odometry that turns in its representation only, and setpoints that are none.
+/// M61, M66: odometry that turns only in its representation, and invalid setpoints.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,14 +50,14 @@ TEST(Fault, M61_QuaternionsThatAreNone) {
   EXPECT_NEAR(rounded.value->T_odom_base.linear().determinant(), 1.0, 1e-12);
 }
 
-// The window's axis points along -x of odom, so that the heading to it lies where the angle wraps.
+// The window's axis points along -x of odom, so that the heading towards it lies where the angle wraps.
 TEST(Fault, M61_NoSpinWhereTheAngleWraps) {
   navigation::Navigator navigator{test::withoutGlass()};
   double fastest = 0.0, now = 10.0, yaw = M_PI;
   Eigen::Vector3d position(4.0, 0.0, 1.5);
   for (int i = 0; i < 300; ++i, now += 0.033) {
     const double sign = i % 3 == 0 ? -1.0 : 1.0,
-                 jitter = i % 2 ? 1e-3 : -1e-3;  // sign flips, and the angle wraps
+                 jitter = i % 2 ? 1e-3 : -1e-3;  // the sign flips, and the angle wraps
     const auto vehicle = fromMsg(odometry(now, position, yaw + jitter, sign), FrameNames());
     ASSERT_TRUE(vehicle) << vehicle.reason;
     navigation::NavigatorInput input = test::inputAt(position, now);
@@ -93,7 +93,7 @@ bool isZero(const geometry_msgs::Twist& t) {
          t.angular.z == 0;
 }
 
-// Each number of the setpoint is forced to be none, before the limiter and behind it.
+// Each number of the setpoint is made invalid, before and after the limiter.
 TEST(Fault, M66_SetpointsThatAreNone) {
   const GuardParams params;
   SetpointGate gate(params);

@@ -1,4 +1,4 @@
-/// What the fuzzers have found once stays mended.
+/// Inputs that fuzzers once found must not fail again.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -30,7 +30,7 @@ class FoundByFuzzing : public testing::TestWithParam<Named> {};
 TEST_P(FoundByFuzzing, StaysMended) {
   const fs::path folder =
       fs::path(WINDOW_INGRESS_SOURCE_DIR) / "test" / "fuzz" / "regressions" / GetParam().name;
-  if (!fs::is_directory(folder)) return;  // nothing was found
+  if (!fs::is_directory(folder)) return;  // the fuzzers have found nothing
   for (const auto& file : fs::directory_iterator(folder)) {
     SCOPED_TRACE(file.path().string());
     const auto bytes = contentOf(file.path());

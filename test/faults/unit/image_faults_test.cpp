@@ -1,4 +1,4 @@
-/// M01 to M14: images as they should not come.
+/// M01 to M14: invalid images.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -14,7 +14,7 @@ struct BadImage {
   std::string encoding;
   std::uint32_t width, height, step;
   std::size_t bytes;
-  std::string word;  // that the reason must contain
+  std::string word;  // which the reason must contain
 };
 
 sensor_msgs::ImagePtr made(const BadImage& bad) {
@@ -57,7 +57,7 @@ TEST(Fault, M02_SizesThatWrapIn32Bits) {
                                       {"bgr8", 0x55555556, 1, 2, 2, "max_pixels"}};
   expectRefused(wrapped);
   expectRefused(wrapped, most);
-  // Small enough for any limit on pixels, but its bytes wrap.
+  // Small enough for any limit on pixels, but the number of bytes wraps.
   expectRefused({{"mono8", 1, 65537, 65536, 65536, "bytes, step * height is 4295032832"},
                  {"rgba16", 0x20000001, 1, 8, 8, "max_pixels"}});
 }

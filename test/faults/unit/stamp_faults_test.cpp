@@ -1,4 +1,4 @@
-/// M37, M39: stamps that are none, in every message that is stamped.
+/// M37, M39: invalid stamps in every stamped message.
 #include <gtest/gtest.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
@@ -34,9 +34,9 @@ window_ingress::WindowPose target(const ros::Time& stamp) {
   return message;
 }
 
-// Why each of the inputs is refused that bears this stamp; empty where it is not.
+// Reasons why each of the inputs is refused with this stamp; empty if it is accepted.
 std::vector<std::string> refusals(const ros::Time& stamp) {
-  StampGate gate{StampLimits{}};  // images, odometry, window_pose, imu pass one each
+  StampGate gate{StampLimits{}};  // accepts one image, odometry, window_pose and imu each
   return {gate.whyRefused(stamp, stamp.toSec()).value_or(""), fromMsg(odometry(stamp), FrameNames()).reason,
           fromMsg(detection(stamp)).reason, targetFromMsg(target(stamp), "odom").reason};
 }

@@ -1,4 +1,4 @@
-// Headers, library and message of the installed package, used from outside.
+// Uses headers, library and message of the installed package from outside.
 #include <window_ingress/WindowPose.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // The core without ROS: images, odometry and attitude in, velocity out. `Pilot` is what a node of any
-// middleware needs of the package: a method for each message that it hears, and one for its timer.
+// middleware needs from the package: a method for each message that it receives, and one for its timer.
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
@@ -54,11 +54,11 @@ class Pilot {
   navigation::NavigatorInput input_;
 };
 
-// Stands in for a camera: a wall, and in it the opening with a frame around it.
+// Replaces a camera: a wall with a framed opening.
 cv::Mat draw(const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_window) {
   cv::Mat image(camera.height, camera.width, CV_8UC3, cv::Scalar(150, 165, 175));
   const auto fill = [&](double width_m, double height_m, const cv::Scalar& colour) {
-    constexpr int kBits = 8;  // of a pixel's fraction
+    constexpr int kBits = 8;  // fraction bits of a pixel
     const auto seen = geometry::projectOpening(camera, T_camera_window, {width_m, height_m});
     std::vector<cv::Point> corners;
     for (const auto& p : seen.value())
@@ -87,7 +87,7 @@ int main() {
     pilot.hearImage(now_sec, draw(camera, (vehicle.T_odom_base * T_base_camera).inverse() * T_odom_window));
     if (output.state == navigation::State::kIdle) pilot.start(now_sec);
     output = pilot.step(now_sec);
-    // Stands in for an autopilot: the vehicle does at once as it is told.
+    // Replaces an autopilot: the vehicle follows each setpoint at once.
     vehicle.velocity_odom_mps = output.setpoint.velocity_odom_mps;
     vehicle.T_odom_base.translation() += vehicle.velocity_odom_mps * kPeriod_sec;
     vehicle.T_odom_base.linear() *= geometry::yawRotation(output.setpoint.yaw_rate_radps * kPeriod_sec);
