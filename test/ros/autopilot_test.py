@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""px4.launch against a made-up MAVROS: stand-by, engagement, a pilot who takes over, and a navigator killed in flight."""
+"""px4.launch with a simulated MAVROS: stand-by, engagement, a pilot who takes over, and a navigator killed in flight."""
 import os
 import signal
 import sys
@@ -65,7 +65,7 @@ class AutopilotTest(unittest.TestCase):
     def test_1_stands_by_with_zeros_and_starts_only_when_engaged(self):
         self.call("reset")
         self.setpoints.wait(what="a stream before the start")
-        self.zeros_from(time.monotonic(), LATE_S + STOP_S + 1.0)  # for longer than the guard bears silence
+        self.zeros_from(time.monotonic(), LATE_S + STOP_S + 1.0)  # longer than the guard waits before it stops streaming
         support.Diagnostics().wait("ingress_navigator: engaged", "not armed, not in a mode")
         self.companion_is(CompanionProcessStatus.MAV_STATE_STANDBY)
         for type(self).armed, type(self).mode in ((True, "POSCTL"), (False, "OFFBOARD")):
@@ -83,11 +83,11 @@ class AutopilotTest(unittest.TestCase):
         self.zeros_from(time.monotonic() + MARGIN_S, 1.0)
         begin = time.monotonic() + MARGIN_S
         type(self).mode = "OFFBOARD"
-        self.zeros_from(begin, 1.5)  # back in the mode alone starts nothing
+        self.zeros_from(begin, 1.5)  # the mode alone starts nothing
         self.fly()
 
     def test_2_an_autopilot_in_a_failsafe_is_not_flown(self):
-        type(self).system_status = 5  # critical, e.g. by its battery
+        type(self).system_status = 5  # critical, for example because of its battery
         self.states.wait(lambda s: s.state_name == "IDLE", "IDLE in the failsafe")
         self.zeros_from(time.monotonic() + MARGIN_S, 0.5)
         in_failsafe = "the autopilot does not follow setpoints: armed, mode OFFBOARD, in a failsafe"

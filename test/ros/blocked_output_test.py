@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A terminal stopped by Ctrl-S, a pipe that nobody reads, a full disk, in flight: the brake brakes and ~abort acts as ever."""
+"""A terminal stopped by Ctrl-S, an unread pipe, a full disk, in flight: the brake and ~abort still work."""
 import contextlib
 import fcntl
 import os
@@ -28,8 +28,8 @@ WATCH_S = 2.0
 SETPOINTS_HZ = 28.0
 ZERO_WITHIN_S = 0.25
 ANSWER_WITHIN_S = 0.2
-LINES = 200        # of some hundred bytes: more than a small pipe holds
-MANY_LINES = 1000  # more than what stands in line before lines are lost
+LINES = 200        # of about a hundred bytes: more than a small pipe holds
+MANY_LINES = 1000  # more than the queue holds: further lines are lost
 SMALL_PIPE = 4096
 F_SETPIPE_SZ = 1031
 CTRL_S, CTRL_Q = b"\x13", b"\x11"
@@ -37,7 +37,7 @@ FULL_DISK_KB = 256
 
 
 class Terminal:
-    """A real one, looked at until somebody presses Ctrl-S."""
+    """A real terminal, read until somebody presses Ctrl-S."""
 
     def __init__(self):
         self._master, self.end = pty.openpty()
@@ -49,7 +49,7 @@ class Terminal:
                 pass
 
     def take_over(self):
-        """In the process that is started: this is its terminal."""
+        """In the started process: makes this its terminal."""
         fcntl.ioctl(self.end, termios.TIOCSCTTY, 0)
 
     def stop(self):
@@ -63,7 +63,7 @@ class Terminal:
 
 
 class Pipe:
-    """To a reader that stops reading."""
+    """A pipe to a reader that stops reading."""
 
     def __init__(self):
         self._reader = subprocess.Popen(["cat"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL)
@@ -82,7 +82,7 @@ class Pipe:
 
 
 class Disk:
-    """A small one, for logs, home and all output."""
+    """A small disk for logs, home and all output."""
 
     def __init__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
@@ -122,7 +122,7 @@ class BlockedOutputTest(unittest.TestCase):
         self.states.stop()
 
     def fly(self, output, lines=LINES, **environment):
-        """Until the vehicle approaches; then what is written goes nowhere any more, and so many lines are written."""
+        """Flies until the vehicle approaches. Then blocks the output and has this many lines written."""
         self.output = output
         command = ["roslaunch", "window_ingress", "sim.launch"]
         self.flight = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output.end, stderr=output.end, start_new_session=True,
@@ -133,7 +133,7 @@ class BlockedOutputTest(unittest.TestCase):
         support.wait_for(lambda: start().success, "a mission that starts", UP_WITHIN_S)
         self.states.wait(lambda s: s.state_name == "APPROACH", "APPROACH", UP_WITHIN_S, begin=0.0)
         output.stop()
-        # Refused, both, and for another reason than the call before: each is said.
+        # Both are refused for another reason than the call before, so each is reported.
         asking = threading.Thread(target=lambda: [call() for call in (confirm, start) * (lines // 2)], daemon=True)
         asking.start()
         asking.join(5.0)

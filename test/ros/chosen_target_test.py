@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Where a scenario has its target chosen, who starts the mission chooses it first, and it is flown through."""
+"""If a scenario asks for a chosen target, start_mission.py chooses it before the start, and the vehicle flies through it."""
 import sys
 import unittest
 
@@ -9,7 +9,7 @@ from window_ingress.msg import Facade, FlightVerdict, IngressState
 
 import support
 
-FLIGHT_WITHIN_S = 400.0  # wall time; the machine may be slow, the simulated clock waits for it
+FLIGHT_WITHIN_S = 400.0  # wall time; on a slow machine the simulated clock waits
 
 
 class ChosenTargetTest(unittest.TestCase):

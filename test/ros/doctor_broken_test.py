@@ -16,7 +16,7 @@ from doctor_test import doctor
 
 
 def looking_left():
-    """Mounted with the axes of a body, not of an optical frame, and turned to the left."""
+    """Mounted with the axes of a body instead of an optical frame, and turned to the left."""
     message = support.mounting()
     rotation = message.transform.rotation
     rotation.x = rotation.y = 0.0
@@ -37,7 +37,7 @@ class DoctorBrokenTest(unittest.TestCase):
                     "tf: camera_optical_frame does not look forward: its z axis is (+0.00, +0.00, +1.00) in base_link",
                     "/cmd_vel: nobody takes setpoints", "cmd_vel:=ITS_TOPIC",
                     "window_detector: no reference image", "mend: ingress reference IMAGE")
-        for _ in range(4):  # nodes learn of each other one by one
+        for _ in range(4):  # nodes discover each other one by one
             code, said = doctor()
             if all(words in said for words in expected):
                 break
@@ -49,7 +49,7 @@ class DoctorBrokenTest(unittest.TestCase):
         self.assertNotIn("image:=/debug_image", said)  # the detector's own
 
     def test_types_that_nobody_expects(self):
-        """Bytes that are no camera_info, and words where numbers belong: findings, not a crash."""
+        """Bytes that are no camera_info, and words instead of numbers, give findings, not a crash."""
         support.Stream._publishers.pop("/camera/camera_info").unregister()
         stream = support.Stream("/camera/camera_info", String, lambda stamp: String("hello"), 20.0)
         wide = "/homography_pose/pose/opening_width_m"

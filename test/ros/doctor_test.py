@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""doctor finds nothing in a healthy simulation, and in each broken one what was broken, with the command that mends it."""
+"""doctor finds nothing in a healthy simulation. In each broken one it finds the fault and the command that repairs it."""
 import os
 import subprocess
 import sys
@@ -34,7 +34,7 @@ class DoctorTest(unittest.TestCase):
         cls.healthy = code, said
 
     def expect(self, *words, code=1):
-        """Within some tries: nodes learn of each other one by one."""
+        """Tries several times: nodes discover each other one by one."""
         for _ in range(3):
             found, said = doctor()
             if found == code and all(word in said for word in words):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The world as a test stand: external.launch and px4.launch, with an autopilot and its simulator made up here behind /mavros."""
+"""The world as a test stand: external.launch and px4.launch, with a simulated autopilot behind /mavros."""
 import math
 import random
 import sys
@@ -19,18 +19,18 @@ from window_ingress.msg import FlightVerdict, IngressState
 import support
 
 STEP_S = 0.02
-REAL_TIME_FACTOR = 0.5         # for machines that draw slowly
-MOST_AHEAD_S = 0.12            # of the world, which may be slower still
-PATIENCE_S = 0.5               # with a world that draws nothing
-LAG_S, MOST_MPS2 = 0.3, 1.5    # of its answer to setpoints
+REAL_TIME_FACTOR = 0.5         # for machines that render slowly
+MOST_AHEAD_S = 0.12            # lead of the world, which may be even slower
+PATIENCE_S = 0.5               # waiting for a world that renders nothing
+LAG_S, MOST_MPS2 = 0.3, 1.5    # of the response to setpoints
 TWIST_BIAS_MPS, TWIST_NOISE_MPS = (0.03, -0.02), 0.03   # fixed in the body
-LATE_S = 0.03                  # each tenth odometry is stamped so much too early
+LATE_S = 0.03                  # every tenth odometry is stamped too early by this time
 START = 20.0, -7.0, 1.5, 1.9   # x, y, z, heading
 READY_WITHIN_S, FLIGHT_WITHIN_S = 120.0, 300.0
 
 
 class Autopilot:
-    """An autopilot, its simulator and MAVROS: follows velocity setpoints in `map`, says where it is, poorly stamped."""
+    """An autopilot with simulator and MAVROS: follows velocity setpoints in `map` and reports odometry with poor stamps."""
 
     def __init__(self, simulates_time=True):
         self.x, self.y, self.z, self.yaw = START
@@ -116,7 +116,7 @@ class ExternalFlightTest(unittest.TestCase):
         cls.autopilot = Autopilot()
 
     def window_ahead(self):
-        """The window as the scenario has it, five metres ahead of where the vehicle is."""
+        """The scenario's window, five metres ahead of the vehicle."""
         yaw = self.autopilot.yaw
         x, y = self.autopilot.x + 5.0 * math.cos(yaw), self.autopilot.y + 5.0 * math.sin(yaw)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A vehicle that is simulated elsewhere is seen and judged where vehicle_odom says it is."""
+"""The world renders and judges an externally simulated vehicle at the pose that vehicle_odom reports."""
 import itertools
 import math
 import sys
@@ -25,18 +25,18 @@ WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/externa
 CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
 OFFSET_Y_M = 0.07
 NEWEST_S = 0.03 + 1.0 / 30.0 + 0.005   # latency, period and step of the camera: the age of the newest image at most
-PATIENCE_S = 0.5   # with a world that draws nothing: a reset forgets images
+PATIENCE_S = 0.5   # waiting for a world that renders nothing: a reset forgets images
 TOPIC = "/mavros/local_position/odom"
 
 
 def pose_at(t):
-    """Straight through the window, a little left of its middle, then standing."""
+    """Flies straight through the window, a little left of its centre, then stands."""
     x = min(STOP_X_M, SPEED_MPS * t)
     return x, OFFSET_Y_M, CENTRE_Z_M
 
 
 def odometry_at(began, count):
-    """What the other simulator says in its step number `count`."""
+    """Odometry of the other simulator at its step number `count`."""
     message = Odometry(child_frame_id="base_link")
     message.header.stamp = began + rospy.Duration(count / RATE_HZ)
     message.header.frame_id = "map"
@@ -48,26 +48,26 @@ def odometry_at(began, count):
 
 
 def with_poor_twist(message, _):
-    """As a real estimator says it: a bias fixed in the body, and noise."""
+    """Like the twist of a real estimator: with a constant bias in the body frame, and noise."""
     linear = message.twist.twist.linear
     linear.x += 0.2 + random.gauss(0.0, 0.05)
     linear.y += 0.15 + random.gauss(0.0, 0.05)
 
 
 def with_late_samples(message, count):
-    """Each tenth sample is stamped 55 ms before its time, behind the two before it, each 40th 150 ms ahead."""
+    """Every tenth sample is stamped 55 ms early, before the two preceding it, every 40th 150 ms ahead."""
     if count > 10 and count % 10 == 0:
         message.header.stamp += rospy.Duration(0.15) if count % 40 == 0 else rospy.Duration(-0.055)
 
 
 def after_a_long_beginning(message, count):
-    """While the world builds its house, which it does at the first sample, six seconds pass."""
+    """Six seconds pass while the world builds its house, which it does at the first sample."""
     if count > 0:
         message.header.stamp += rospy.Duration(6.0)
 
 
 class Flight:
-    """Another simulator, with a time of its own; not faster than the world, which may be slow here, can follow."""
+    """Another simulator with its own time. It is not faster than the world, which may be slow here."""
 
     _next_s = 1000.0   # flights follow each other
     _publisher = None
@@ -134,7 +134,7 @@ class ExternalVehicleTest(unittest.TestCase):
         self.assert_opening_is_where_the_truth_says(judged, truths)
 
     def assert_opening_is_where_the_truth_says(self, images, truths):
-        """The orange frame left of the opening: the columns that hold it, beside its projection."""
+        """The orange frame left of the opening: compares its columns in the image with its projection."""
         focal = 320.0 / math.tan(0.6)
         checked = 0
         for image in images[::10]:
@@ -151,7 +151,7 @@ class ExternalVehicleTest(unittest.TestCase):
         self.assertGreater(checked, 4)
 
     def judged(self, distort):
-        """The verdict on the flight so told, its time since the start [s], and what was said meanwhile."""
+        """The verdict on this flight, its time since the start [s], and the messages meanwhile."""
         verdicts, log = support.Listener("referee", FlightVerdict), support.Listener("/rosout", Log)
         begin = time.monotonic()
         flight = Flight(distort)
@@ -171,7 +171,7 @@ class ExternalVehicleTest(unittest.TestCase):
         verdict, _, said = self.judged(with_late_samples)
         self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
         anew = [text for text in said if "the world restarts" in text]
-        self.assertEqual(len(anew), 1, anew)  # the flight itself, which begins 100 s after the one before
+        self.assertEqual(len(anew), 1, anew)  # only this flight, which begins 100 s after the one before
         self.assertTrue(any("late samples are left out" in text for text in said), said)
 
     def test_3_building_the_house_takes_none_of_the_flights_time(self):

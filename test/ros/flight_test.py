@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""World, detector, pose, navigator and guard as processes: started by service, judged PASSED by the referee."""
+"""World, detector, pose node, navigator and guard as processes: started by service, judged PASSED by the referee."""
 import sys
 import unittest
 
@@ -9,7 +9,7 @@ from window_ingress.msg import FlightVerdict, IngressState
 
 import support
 
-READY_WITHIN_S = 120.0   # wall time; the machine may be slow, the simulated clock waits for it
+READY_WITHIN_S = 120.0   # wall time; on a slow machine the simulated clock waits
 FLIGHT_WITHIN_S = 400.0
 
 

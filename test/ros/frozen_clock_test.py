@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Simulated time that does not come, stands still, or jumps back: zeros go on, and it is said why."""
+"""Simulated time that is missing, stands still, or jumps back: zeros continue, and the cause is reported."""
 import sys
 import threading
 import time
@@ -47,7 +47,7 @@ class SimulatedClock:
 
 class FrozenClockTest(unittest.TestCase):
     def expect_zeros_of_the_guard(self, guarded, begin):
-        """Two seconds of wall time, at 20 Hz and more, whatever /clock does."""
+        """Two seconds of wall time, at 20 Hz or more, whatever /clock does."""
         support.wait_for(lambda: len(guarded.since(begin)) >= 40, "the guard's stream goes on", 2.0 + time.monotonic() - begin)
         self.assertTrue(all(speed(s) == 0.0 for s in guarded.since(begin)))
 

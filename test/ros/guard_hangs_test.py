@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The guard hangs in full flight towards the wall, the autopilot would fly on for 3.2 s: the navigator stops it, and waits."""
+"""The guard hangs in fast flight towards the wall; the autopilot would fly on for 3.2 s. The navigator stops the vehicle and waits."""
 import os
 import signal
 import sys
@@ -13,7 +13,7 @@ from window_ingress.msg import FlightVerdict, IngressState
 
 import support
 
-READY_WITHIN_S = 120.0  # wall time; the machine may be slow, the simulated clock waits for it
+READY_WITHIN_S = 120.0  # wall time; on a slow machine the simulated clock waits
 FLIGHT_WITHIN_S = 120.0
 HANG_AT_M = 3.0         # from the window's plane
 FAST_MPS = 0.7

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Corners in, pose out; what is missing is named, and nothing is made up for it."""
+"""Corners in, pose out. Missing inputs are reported by name, and no pose is invented."""
 import math
 import sys
 import time
@@ -22,7 +22,7 @@ VEHICLE_X, CAMERA_X = 0.0, support.CAMERA_X
 
 
 def detection(stamp, frame_id="camera_optical_frame"):
-    """A window square in front of the camera, `DISTANCE` away."""
+    """A window that faces the camera at `DISTANCE`."""
     message = WindowDetection(image_width=support.WIDTH, image_height=support.HEIGHT, detected=True, score=0.9)
     message.header.stamp = stamp
     message.header.frame_id = frame_id
@@ -37,7 +37,7 @@ def detection(stamp, frame_id="camera_optical_frame"):
 
 
 def partial(stamp):
-    """The same with its left and its right border alone, their ends out of the image."""
+    """The same window with only its left and right border; their ends are outside the image."""
     message = detection(stamp)
     for i in (WindowDetection.RIGHT, WindowDetection.LEFT):
         edge, begin, end = message.edges[i], message.corners[i], message.corners[(i + 1) % 4]

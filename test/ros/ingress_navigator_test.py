@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Services that always answer, a stream that never stops while enabled, and zero when the data stops."""
+"""Services always answer, the stream never stops while enabled, and setpoints are zero when the data stops."""
 import sys
 import time
 import unittest
@@ -14,7 +14,7 @@ from window_ingress.msg import IngressState, WindowPose
 import support
 
 STREAM_HZ, STREAM_FOR_S = 20.0, 2.0
-STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
+STALE_WITHIN_S = 0.6  # limit of the age, plus margin for a loaded machine
 
 
 def speed(message):
@@ -59,7 +59,7 @@ class IngressNavigatorTest(unittest.TestCase):
         return reply
 
     def refused(self):
-        """The answer, or None: what the test before has sent may still be fresh."""
+        """The answer, or None: the previous test's messages may still be fresh."""
         reply = self.call("start")
         if not reply.success:
             return reply.message

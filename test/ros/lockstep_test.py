@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""In lockstep a flight through the real nodes repeats exactly, whatever else the machine does."""
+"""In lockstep a flight through the real nodes repeats exactly, on any machine load."""
 import json
 import os
 import signal
@@ -25,13 +25,13 @@ BUSY = "while True: pass"
 
 
 def numbers(message):
-    """Everything in a message but its sequence number, as text: equal only if equal to the last bit."""
+    """All members of a message except its sequence number, as text: equal only if equal to the last bit."""
     message.header.seq = 0
     return repr(message)
 
 
 def by_stamp(messages):
-    """stamp -> message, the first of each: what a node says as it is shut down may bear the stamp of its last step."""
+    """stamp -> first message with this stamp. A node that shuts down may publish once more with its last stamp."""
     recording = {}
     for message in messages:
         recording.setdefault(message.header.stamp, numbers(message))
@@ -39,7 +39,7 @@ def by_stamp(messages):
 
 
 def latest_first(recordings):
-    """Where all recordings have begun: on a busy machine a subscriber may be late. The verdict covers the whole flight."""
+    """Time from which all recordings have data: on a busy machine a subscriber may be late. The verdict covers the whole flight."""
     return max(min(recording) for recording in recordings)
 
 
@@ -70,7 +70,7 @@ class LockstepTest(unittest.TestCase):
             return recording, file.read()
 
     def assert_same(self, one, other, end):
-        """Up to the referee's verdict: then the launch ends, and nodes that stop at different times say zero as they go."""
+        """Compares up to the referee's verdict. Then the launch ends, and nodes send zeros while they stop at different times."""
         for topic in TOPICS:
             begin = latest_first([one[topic], other[topic]])
             a = {t: m for t, m in one[topic].items() if begin <= t < end}

@@ -24,7 +24,7 @@ import plant
 import support
 
 GLASS_FREE = {"glass": IngressGoal.GLASS_EXCLUDED}
-# Put before a client's program: its send_goal returns a second after the goal was sent, when the answer is there already.
+# Inserted before a client's program: its send_goal returns a second after the goal was sent, when the answer has arrived.
 ANSWERED_FIRST = """
 import threading, time, actionlib.action_client
 _handle = actionlib.action_client.ClientGoalHandle
@@ -33,7 +33,7 @@ def _late(machine):
     return _handle(machine)
 actionlib.action_client.ClientGoalHandle = _late
 """
-STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
+STALE_WITHIN_S = 0.6  # limit of the age, plus margin for a loaded machine
 
 
 def call(service):
@@ -64,7 +64,7 @@ class MissionActionTest(unittest.TestCase):
         support.wait_for(lambda: self.client.get_state() not in under_way, "the end of the goal before")
         self.plant.restart()
         self.feedback = []
-        self.begin = time.monotonic() + 0.1  # states of the test before do not count, nor where the vehicle was
+        self.begin = time.monotonic() + 0.1  # states and positions of the previous test do not count
         self.wait_for_state("IDLE")
 
     def wait_for_state(self, *names):
@@ -72,7 +72,7 @@ class MissionActionTest(unittest.TestCase):
         return self.states.wait(lambda s: s.state_name in names, f"state {names}", begin=begin)
 
     def send(self, **goal):
-        """A goal that is taken: the first images and odometry may still be on their way."""
+        """Sends a goal until it is accepted: the first images and odometry may be under way."""
         def taken():
             self.client.send_goal(IngressGoal(**goal), feedback_cb=lambda feedback: self.feedback.append(feedback.state))
             support.wait_for(lambda: self.client.get_state() != GoalStatus.PENDING, "an answer to the goal")
@@ -80,7 +80,7 @@ class MissionActionTest(unittest.TestCase):
         support.wait_for(taken, "a goal that is accepted")
 
     def result(self):
-        """Not by wait_for_result: the client misses an answer that comes before its send_goal has returned."""
+        """Does not use wait_for_result: the client misses an answer that precedes the return of its send_goal."""
         support.wait_for(lambda: self.comm_state() == CommState.DONE, "the result")
         return self.client.get_result()
 
@@ -94,7 +94,7 @@ class MissionActionTest(unittest.TestCase):
         return result.reason
 
     def cancel(self):
-        """Zero is sent before the result, and nothing else after it."""
+        """A zero is sent before the result, and only zeros after it."""
         begin = time.monotonic()
         self.client.cancel_goal()
         self.assertEqual((self.result().outcome, self.result().reason), (IngressResult.PREEMPTED, "the goal was cancelled"))
@@ -124,7 +124,7 @@ class MissionActionTest(unittest.TestCase):
         self.assertTrue(all(state.reason for state in self.feedback))
 
     def reach(self, state):
-        """Flies until the navigator is in that state, and moves where that state moves."""
+        """Flies until the navigator is in this state, and moves if the state moves."""
         self.plant.sign_trusted = state != "ALIGN"
         if state in ("SEARCH", "HOLD"):
             self.send()
@@ -170,7 +170,7 @@ class MissionActionTest(unittest.TestCase):
             with self.subTest(state):
                 self.reach(state)
                 self.assertTrue(call("abort").success)
-                answered = time.monotonic() + 0.1  # what was sent before may still be on its way
+                answered = time.monotonic() + 0.1  # messages sent before may still be under way
                 self.assertEqual((self.result().outcome, self.result().reason), (IngressResult.ABORTED, "aborted by the operator"))
                 self.states.wait(lambda s: s.state_name == "ABORTED" and s.reason == "aborted by the operator", "the end", begin=answered)
                 self.setpoints.wait(lambda s: True, "setpoints after the answer", begin=answered + 0.2)

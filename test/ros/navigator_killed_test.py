@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The navigator is killed in full flight towards the wall, the autopilot would fly on for 3.2 s: the guard stops it."""
+"""The navigator is killed in fast flight towards the wall; the autopilot would fly on for 3.2 s. The guard stops the vehicle."""
 import os
 import signal
 import sys
@@ -13,11 +13,11 @@ from window_ingress.msg import FlightVerdict, IngressState
 
 import support
 
-READY_WITHIN_S = 120.0  # wall time; the machine may be slow, the simulated clock waits for it
+READY_WITHIN_S = 120.0  # wall time; on a slow machine the simulated clock waits
 FLIGHT_WITHIN_S = 120.0
 KILL_AT_M = 3.0         # from the window's plane
 FAST_MPS = 0.7
-TRAVEL_M = 1.5          # 1.04 m and less on an idle machine (doc/autopilots.md); 4 m without the guard
+TRAVEL_M = 1.5          # 1.04 m or less on an idle machine (doc/autopilots.md); 4 m without the guard
 STANDS_MPS = 0.1
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The nodelets: what the nodes do, in one process; one can be taken out and put in again, which the others survive."""
+"""The nodelets work like the nodes, in one process. One can be unloaded and loaded again without harm to the others."""
 import subprocess
 import sys
 import time

@@ -174,7 +174,7 @@ class Loop {
       look(*image);
   }
 
-  /// States that no odometry follows the last image.
+  /// Tells the tracker that no odometry follows the last image.
   void finish() {
     eyes_.tracker().flush();
     tell();

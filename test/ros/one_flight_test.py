@@ -53,7 +53,7 @@ def one_flight(*arguments):
 
 
 class Player:
-    """Plays a bag to the nodes as the world does in lockstep: each image waits for what replay waits for, too."""
+    """Plays a bag to the nodes as the world does in lockstep: each image waits for the data that replay waits for."""
 
     def __init__(self, bag):
         self.bag = bag
@@ -63,7 +63,7 @@ class Player:
         self.latched = {topic: rospy.Publisher(topic, kind, queue_size=1, latch=True) for topic, kind in LATCHED.items()}
         self.listeners = {topic: support.Listener(topic, kind) for topic, kind in PUBLISHED.items()}
         self.step = LockstepStep()
-        self.images = []  # stamps of those that odometry caught up with: behind the last one the recording may end
+        self.images = []  # stamps of images followed by odometry; the recording may end after the last one
 
     def play(self):
         """\\return topic -> stamp -> message, as the nodes published them"""
@@ -86,13 +86,13 @@ class Player:
 
     @staticmethod
     def send(publisher, kind, message):
-        """A message of a bag has a type of its own, of the same content."""
+        """A message of a bag has a type of its own with the same content."""
         buffer = io.BytesIO()
         message.serialize(buffer)
         publisher.publish(kind().deserialize(buffer.getvalue()))
 
     def begin(self):
-        """The first step, before the first image: once it is answered, the nodes hear everything."""
+        """The first step, before the first image. Once it is answered, the nodes receive everything."""
         for topic, message, now in self.bag.read_messages(topics=list(LATCHED)):
             self.send(self.latched[topic], LATCHED[topic], message)
             if topic == "/reference":
@@ -121,7 +121,7 @@ def comparable(message):
 
 
 def without_openness(message):
-    """A copy of it with nothing but the verdict left."""
+    """A copy with only the verdict of the openness."""
     copy = type(message)().deserialize(bytes_of(message))
     if hasattr(copy, "openness"):
         copy.openness = type(copy.openness)(verdict=copy.openness.verdict)
@@ -135,7 +135,7 @@ def bytes_of(message):
 
 
 def fields(message, name=""):
-    """name -> value, of all numbers and texts in a message."""
+    """name -> value of all numbers and texts in a message."""
     if isinstance(message, (genpy.Message, genpy.Time)):
         for slot in message.__slots__:
             yield from fields(getattr(message, slot), f"{name}.{slot}" if name else slot)
@@ -147,7 +147,7 @@ def fields(message, name=""):
 
 
 def difference(one, other):
-    """The fields that differ, in words."""
+    """The differing fields as text."""
     a, b = dict(fields(one)), dict(fields(other))
     return ", ".join(f"{name}: {a.get(name)!r} / {b.get(name)!r}" for name in sorted(a.keys() | b.keys())
                      if repr(a.get(name)) != repr(b.get(name)))

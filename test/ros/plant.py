@@ -1,4 +1,4 @@
-"""A vehicle and its window without a renderer: velocity follows cmd_vel, the window is seen while the test lets it be seen."""
+"""A vehicle and its window without a renderer. The velocity follows cmd_vel, and the test decides whether the window is seen."""
 import threading
 
 import rospy
@@ -12,7 +12,7 @@ import support
 WINDOW_X, HEIGHT, SIZE = 4.0, 1.5, (1.2, 1.0)
 ODOM_HZ, POSE_HZ = 50.0, 30.0
 RESPONSE_S = 0.2
-COMMITTED_FROM_M = 0.6  # nearer than this the border has left the image
+COMMITTED_FROM_M = 0.6  # nearer than this the border is outside the image
 
 
 class Plant:
@@ -41,7 +41,7 @@ class Plant:
         self._streams[0].resume()
 
     def restart(self):
-        """Back to where it began, at rest, the window out of sight."""
+        """Back to the start, at rest, with the window out of sight."""
         with self._lock:
             self.place, self.velocity, self.updates = [0.0, 0.0, HEIGHT], [0.0, 0.0, 0.0], 0
             self.shows_window, self.sign_trusted, self.obeys_choice = False, True, True
@@ -68,7 +68,7 @@ class Plant:
             message = support.odometry(stamp)
             position, linear = message.pose.pose.position, message.twist.twist.linear
             position.x, position.y = self.place[:2]
-            position.z = self.place[2] + 1e-15 * stamp.nsecs  # no odometry repeats itself to the bit
+            position.z = self.place[2] + 1e-15 * stamp.nsecs  # no two odometry samples are equal
             linear.x, linear.y, linear.z = self.velocity
         return message
 

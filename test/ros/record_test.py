@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""record.launch beside a flight: the bag holds what replay_bag and plot_flight need, and both make something of it."""
+"""record.launch beside a flight: replay_bag and plot_flight can use the bag."""
 import glob
 import json
 import os
@@ -24,7 +24,7 @@ NEEDED = ("/camera/image_raw/compressed", "/camera/camera_info", "/odom", "/imu"
 
 
 def tool(name, *arguments):
-    """Not by rosrun: it asks back where a build folder lies within the package."""
+    """Does not use rosrun, which asks interactively if a build folder lies within the package."""
     program = roslib.packages.find_node("window_ingress", name)[0]
     return subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nodes that must not start say why in one line and exit with 2; nodes that are told to stop leave zero and exit with 0."""
+"""Nodes that must not start say why in one line and exit with 2. Nodes that are stopped leave zero and exit with 0."""
 import signal
 import subprocess
 import sys
@@ -25,7 +25,7 @@ def launch(node):
 
 class RefusedStartTest(unittest.TestCase):
     def errors_of(self, node, name, value):
-        """What it says as it ends with 2."""
+        """The error text of a node that exits with 2."""
         rospy.set_param(name, value)
         try:
             process = launch(node)
@@ -120,7 +120,7 @@ class RefusedStartTest(unittest.TestCase):
             rospy.delete_param("/vehicle/odom_frame")
 
     def test_a_launch_that_flies_nothing_ends_with_the_node_that_is_refused(self):
-        """By a parameter that no file has, so that nothing before the start knows of it."""
+        """Refused by a parameter that is in no file, so that no check before the start finds it."""
         for node in ("window_detector", "ingress_navigator", "setpoint_guard"):
             rospy.set_param(f"/{node}/thershold", 1.0)
             done = subprocess.run(["roslaunch", "window_ingress", "rehearse.launch", "camera:=false", "rviz:=false"], capture_output=True,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""rehearse.launch with a recorded webcam: the navigator wishes, odometry follows the hand, and nothing reaches an autopilot."""
+"""rehearse.launch with a recorded webcam: the navigator commands, odometry follows the hand, and nothing reaches an autopilot."""
 import sys
 import time
 import unittest
@@ -23,7 +23,7 @@ OPENING_M, FRAME_M = (0.6, 0.45), 0.05
 
 
 def wall():
-    """A plaster wall of 4 x 3 m with the printed window in its middle."""
+    """A plaster wall of 4 x 3 m with the printed window in its centre."""
     size = (3.0, 4.0)
     random = numpy.random.default_rng(3)
     image = cv2.resize(random.normal(185.0, 6.0, (300, 400)).astype(numpy.float32), None, fx=4, fy=4)
@@ -61,7 +61,7 @@ class Hand:
         return support.image_message(noisy, stamp)
 
     def carry(self, distance, speed):
-        """Walks there at that speed."""
+        """Moves the camera there at this speed."""
         begin, start = time.monotonic(), self.distance
         sign = 1.0 if distance > start else -1.0
 

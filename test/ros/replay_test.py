@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""replay.launch, looped: detection and poses come, nothing else of the recording does, and at each loop everything starts anew and says so."""
+"""replay.launch, looped: detections and poses appear, no other recorded topic does, and each loop starts anew and says so."""
 import os
 import pathlib
 import shutil
@@ -52,7 +52,7 @@ class ReplayTest(unittest.TestCase):
 
     def test_0_nodes_wait_for_the_bag_without_a_complaint(self):
         self.windows.wait(what="the first image", deadline_s=UP_WITHIN_S, begin=0.0)
-        # A busy machine's player is late with its clock at times, and the nodes say so; that is no complaint about waiting.
+        # On a busy machine the player's clock is late at times, and the nodes say so. This is no complaint about waiting.
         said = [(m.name, m.msg) for m in self.log.since(0.0) if m.level >= Log.WARN and "its player is too slow" not in m.msg]
         self.assertEqual(said, [])
         self.assertIn("/window_detector", {m.name for m in self.log.since(0.0) if "waiting for" in m.msg})
@@ -89,7 +89,7 @@ class ReplayTest(unittest.TestCase):
         self.windows.wait(lambda m: m.detected, "a window in a later loop", UP_WITHIN_S)
 
     def poses_of_two_loops(self):
-        """Filtered poses of two loops, one after the other, once there are some of both."""
+        """Filtered poses of two successive loops, once both have some."""
         loops, last_sec = [[]], 0.0
         for pose in self.poses.since(0.0):
             stamp_sec = pose.header.stamp.to_sec()

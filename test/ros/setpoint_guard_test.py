@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The last gate: sane input passes, everything else is zero, and it falls silent only when input has long gone."""
+"""The last gate: valid input passes, everything else becomes zero, and the guard falls silent only long after its input."""
 import subprocess
 import sys
 import time
@@ -43,7 +43,7 @@ class SetpointGuardTest(unittest.TestCase):
         self.assertTrue(all(support.is_zero(m) for m in self.output.since(begin)))
 
     def test_zeros_without_input_at_20_hz_and_more(self):
-        begin = time.monotonic() + LATE_S + MARGIN_S  # what the test before has sent must be late
+        begin = time.monotonic() + LATE_S + MARGIN_S  # input of the previous test must be late
         self.expect_zeros_from(begin, 60)
         self.assertLess(time.monotonic() - begin, 60 / 20.0)
 

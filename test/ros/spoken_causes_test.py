@@ -29,7 +29,7 @@ OK = 0
 
 
 class Journal:
-    """Every status of every node, with the wall time at which it came."""
+    """Every status of every node, with its wall time of arrival."""
 
     def __init__(self):
         self._lock = threading.Lock()
@@ -49,7 +49,7 @@ class Journal:
         return entries[-1][1] if entries else None
 
     def first(self, begin, name, accept):
-        """When the first status that `accept`s came; fails with what was said instead."""
+        """Time of the first status that `accept`s; otherwise fails with the statuses received."""
         try:
             found = support.wait_for(lambda: [at for at, s in self.since(begin, name) if accept(s)], name, 2.0 * WITHIN_S)
         except AssertionError:
@@ -70,7 +70,7 @@ def setpoint(stamp):
 
 
 def corners(stamp):
-    """Of an image that took its time: odometry and tf of its exposure have come."""
+    """Corners of an image with a long processing time: odometry and tf of its exposure have arrived."""
     return detection(stamp - rospy.Duration(0.1))
 
 
@@ -111,7 +111,7 @@ class SpokenCausesTest(unittest.TestCase):
         self.assertLess(at - begin, WITHIN_S, f"{name} is not at ease again")
 
     def provoke(self, cause, mend, *lines):
-        """\\param lines (status, words...): each is at ease before and afterwards, and says the words in between"""
+        """Parameter `lines`: (status, words...). Each status is OK before and afterwards, and contains the words in between."""
         for name, *_ in lines:
             self.expect_healthy(name)
         begin = time.monotonic()
@@ -248,7 +248,7 @@ class SpokenCausesTest(unittest.TestCase):
     # --- from the start
 
     def launch(self, node, name, *arguments):
-        """A node without neighbours, in a namespace of its name. \\return when it had begun to say how it is"""
+        """A node without neighbours, in a namespace of its name. Returns the time of its first status."""
         process = subprocess.Popen([find_node("window_ingress", node)[0], "__name:=node", *arguments],
                                    env={**os.environ, "ROS_NAMESPACE": name}, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 

@@ -1,4 +1,4 @@
-"""What the ROS tests share. Everything waits for a condition with a deadline in wall time; nothing sleeps for luck."""
+"""Helpers of the ROS tests. Everything waits for a condition with a deadline in wall time; nothing relies on a fixed sleep."""
 import pathlib
 import sys
 import threading
@@ -36,7 +36,7 @@ def wait_for(condition, what, deadline_s=DEADLINE_S):
 
 
 def pid_of(node):
-    """Process of a node, as the node itself says."""
+    """Process of a node, as the node itself reports."""
     uri = rosgraph.Master("/test").lookupNode(node)
     code, message, pid = xmlrpc.client.ServerProxy(uri).getPid("/test")
     assert code == 1, message
@@ -49,7 +49,7 @@ def call(service, deadline_s=DEADLINE_S):
 
 
 def start_mission(within_s=DEADLINE_S):
-    """Waits for the navigator and all that it needs."""
+    """Waits for the navigator and everything that it needs."""
     rospy.wait_for_service("ingress_navigator/start", within_s)
     wait_for(lambda: call("ingress_navigator/start").success, "a mission that starts", within_s)
 
@@ -60,7 +60,7 @@ def is_zero(setpoint):
 
 
 class Listener:
-    """Messages of a topic with the wall time at which they came."""
+    """Messages of a topic with their wall time of arrival."""
 
     def __init__(self, topic, kind):
         self.kind = kind
@@ -128,7 +128,7 @@ class Stream:
                 continue
             try:
                 self._publisher.publish(self.make(rospy.Time.now()))
-            except rospy.ROSException:  # the topic is closed: the node went down in between
+            except rospy.ROSException:  # the topic is closed: the node has shut down meanwhile
                 return
 
     def stop(self):
@@ -137,7 +137,7 @@ class Stream:
 
 
 class Diagnostics:
-    """The latest status of each thing that nodes report."""
+    """The latest status of each item that nodes report."""
 
     def __init__(self):
         self._status = {}
@@ -148,7 +148,7 @@ class Diagnostics:
             self._status[status.name] = status
 
     def wait(self, name, *words, deadline_s=DEADLINE_S):
-        """Waits until the status `name` says all the words."""
+        """Waits until the status `name` contains all the words."""
         def found():
             status = self._status.get(name)
             return status if status and all(word in status.message for word in words) else None
@@ -165,7 +165,7 @@ CORNERS = ((220, 150), (420, 150), (420, 310), (220, 310))  # inner border: pixe
 
 
 def window_image():
-    """A plaster wall with an orange frame round a dark opening."""
+    """A plaster wall with an orange frame around a dark opening."""
     image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
     (left, top), _, (right, bottom), _ = CORNERS
     image[top - FRAME_PX:bottom + FRAME_PX + 1, left - FRAME_PX:right + FRAME_PX + 1] = (20, 95, 225)
@@ -183,7 +183,7 @@ def image_message(pixels, stamp, frame_id="camera_optical_frame"):
 
 
 class Camera:
-    """Images that are never the same twice, unless they are stuck."""
+    """Images that always differ, unless the camera is stuck."""
 
     def __init__(self, pixels=None):
         self.pixels = window_image() if pixels is None else pixels
@@ -213,7 +213,7 @@ def odometry(stamp, x=0.0, speed=0.0):
     message.header.stamp = stamp
     message.header.frame_id = "odom"
     message.pose.pose.position.x = x
-    message.pose.pose.position.z = 1.5 + 1e-15 * stamp.nsecs  # no odometry repeats itself to the bit
+    message.pose.pose.position.z = 1.5 + 1e-15 * stamp.nsecs  # no two odometry samples are equal
     message.pose.pose.orientation.w = 1.0
     message.twist.twist.linear.x = speed
     return message
@@ -240,7 +240,7 @@ uint8 system_status
 {80 * '='}
 MSG: std_msgs/Header
 {Header._full_text}"""
-AutopilotState = generate_dynamic("mavros_msgs/State", AUTOPILOT_STATE)["mavros_msgs/State"]  # there may be no MAVROS here
+AutopilotState = generate_dynamic("mavros_msgs/State", AUTOPILOT_STATE)["mavros_msgs/State"]  # MAVROS may not be installed
 
 
 def no_window(stamp):
@@ -252,7 +252,7 @@ def no_window(stamp):
 
 
 def changed(make, **what):
-    """The same messages with these members set; 'header__frame_id' is a member of a member, a function gets the message."""
+    """The same messages with these members set. 'header__frame_id' is a nested member; a function gets the message."""
     def altered(stamp):
         message = make(stamp)
         for path, value in what.items():

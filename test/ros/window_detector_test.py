@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Image in, corners out: with and without calibration, and whatever else comes on the topic."""
+"""Image in, corners out: with and without calibration, and with anything else on the topic."""
 import os
 import sys
 import time
@@ -156,7 +156,7 @@ class WindowDetectorTest(unittest.TestCase):
         self.windows.wait(lambda w: w.detected, "a window")
         console, begin = support.Listener("/rosout", Log), time.monotonic()
 
-        def refused_aloud():  # who has just begun to listen may miss a line
+        def refused_aloud():  # a new subscriber may miss a line
             after = client.update_configuration({"min_score": 7.0, "min_correlation": 1.0})
             self.assertEqual([after[name] for name in ("min_score", "min_correlation")], [before[name] for name in ("min_score", "min_correlation")])
             return any("change refused, old values kept" in m.msg and "min_score = 7 is not within" in m.msg for m in console.since(begin))

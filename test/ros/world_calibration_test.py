@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulated camera can be calibrated as a real one: the calibrator's service sets it, saves it, and it is read again."""
+"""The simulated camera can be calibrated like a real one: the calibrator's service sets and saves the calibration for the next start."""
 import os
 import subprocess
 import sys

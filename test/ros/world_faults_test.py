@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Faults by service, calibration by service: what the world sends is what was asked for, and is said beside it."""
+"""Faults and calibration by service: the world sends what was asked for, and publishes the faults."""
 import math
 import os
 import sys

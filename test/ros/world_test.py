@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulated vehicle goes where the frame of the setpoint says, and a reset puts it back."""
+"""The simulated vehicle moves along the axes of the setpoint's frame, and a reset puts it back."""
 import math
 import sys
 import time
@@ -47,7 +47,7 @@ class WorldTest(unittest.TestCase):
         return [now - then for now, then in zip(position(truth), position(self.begin))]
 
     def fly(self, frame_id, x=0.0, y=0.0, z=0.0):
-        """Metres moved, in odom, once it is far enough."""
+        """Distance moved in odom [m], once it is far enough."""
         def command(stamp):
             message = TwistStamped()
             message.header.stamp = stamp

@@ -59,7 +59,7 @@ def main():
         bag.write("/tf_static", transforms, rospy.Time.from_sec(RECORDED_S if "twice" in words else START_S))
         if "reference" in words:
             x, y = zip(*support.CORNERS)
-            target = support.image_message(pixels[:, :, ::-1].copy(), rospy.Time())  # its frame is blue
+            target = support.image_message(pixels[:, :, ::-1].copy(), rospy.Time())  # the frame of this window is blue
             bag.write("/reference", ReferenceImage(image=target, corner_x=x, corner_y=y), rospy.Time.from_sec(START_S))
         for _ in range(2 if "twice" in words else 1):
             for i in range(count):

@@ -17,7 +17,7 @@ TOOLS = ["detect_images", "draw_stages", "fly", "replay_bag", "survey_detector",
 
 
 def assert_refused(result, code, *words):
-    """The exit code, and one line that says what is wrong and where."""
+    """Checks the exit code, and that one line says what is wrong and where."""
     lines = [line for line in result.stderr.splitlines() if line.strip()]
     assert result.returncode == code, result.stderr
     assert len(lines) == 1, result.stderr
@@ -342,7 +342,7 @@ def test_an_overlay_with_keys_that_nobody_reads_is_refused_by_every_tool(tmp_pat
 
 
 def test_what_the_operator_says_of_vehicle_and_opening_counts_more_than_the_scenario(tmp_path):
-    """Of a vehicle as wide as the opening nothing passes; the scenario's does."""
+    """Nothing passes with a vehicle as wide as the opening; the scenario's vehicle passes."""
     file = tmp_path / "wide.yaml"
     file.write_text("vehicle: {half_width_m: 0.6}\n")
     result = run("fly", "--scenario", NOMINAL, "--no-pictures", "--params", file, "--output", tmp_path / "out")

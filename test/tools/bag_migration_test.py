@@ -1,4 +1,4 @@
-"""Bags recorded before the messages were nested: 'rosbag fix' brings every number of theirs into the present messages."""
+"""Bags recorded before messages were nested: 'rosbag fix' converts each of their numbers into the present messages."""
 import sys
 
 import pytest
@@ -16,7 +16,7 @@ OLD = {"window_ingress/WindowPose": "4f0b002e9675a17f975f5e82c2c6ee5f", "window_
 
 
 def old_types():
-    """{type: class} by the definitions of then."""
+    """{type: class} by the former definitions."""
     if not (ROOT / "build/ros/devel/lib/python3/dist-packages/window_ingress").is_dir():
         pytest.skip("the messages are not built")
     sys.path.insert(0, str(ROOT / "build/ros/devel/lib/python3/dist-packages"))
@@ -32,7 +32,7 @@ def old_types():
 
 
 class Filler:
-    """Numbers and texts of which no two are the same, as far as their types allow."""
+    """Numbers and texts that are all different, as far as their types allow."""
 
     def __init__(self):
         self.count = 100
@@ -62,7 +62,7 @@ class Filler:
 
 
 def leaves(message):
-    """All numbers and texts in it, in its own order."""
+    """All numbers and texts in the message, in its own order."""
     if hasattr(message, "__slots__") and hasattr(message, "_slot_types"):
         return [leaf for name in message.__slots__ for leaf in leaves(getattr(message, name))]
     if isinstance(message, (list, tuple)):
@@ -72,7 +72,7 @@ def leaves(message):
 
 @pytest.fixture(name="bags", scope="module")
 def fixture_bags(tmp_path_factory):
-    """{old type: (old message, migrated message)}, by way of a bag."""
+    """{old type: (old message, migrated message)}, converted through a bag."""
     folder, types, old = tmp_path_factory.mktemp("bags"), old_types(), {}
     with rosbag.Bag(str(folder / "old.bag"), "w") as bag:
         for kind, own in types.items():
@@ -103,7 +103,7 @@ def test_nothing_is_lost_and_little_is_added(bags, kind):
         else:
             added.append(leaf)
     assert not missing
-    known = {"WindowPose": [0, 0, 1, ""], "WindowDetection": [0] + 4 * [True]}.get(name, [])  # header's number, reject; visible
+    known = {"WindowPose": [0, 0, 1, ""], "WindowDetection": [0] + 4 * [True]}.get(name, [])  # fields of header, reject and visible
     assert len(added) <= len(known), added
 
 

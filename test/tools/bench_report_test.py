@@ -1,4 +1,4 @@
-"""What the report makes of measurements whose ratios are known."""
+"""The report of measurements whose ratios are known."""
 import json
 import sys
 

@@ -1,4 +1,4 @@
-"""tools/campaign: shards flown by GNU parallel and joined are the same bytes as one process."""
+"""tools/campaign: shards flown by GNU parallel and merged give the same bytes as one process."""
 import json
 import os
 import re

@@ -1,4 +1,4 @@
-"""check_frames flies in the simulated world behind the real guard, and finds it as REP 103 wants; its verdicts can be bad, too."""
+"""check_frames flies in the simulated world behind the real guard and finds axes as in REP 103. It also finds wrong ones."""
 import math
 
 import pytest

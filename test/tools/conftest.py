@@ -1,4 +1,4 @@
-"""What several tests of tools need."""
+"""Fixtures that several tests of tools need."""
 import os
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "dev")]
 
 @pytest.fixture(name="screen")
 def fixture_screen():
-    """A screen that nobody sees: the name of its display. Skips where Xvfb (package xvfb) is not installed."""
+    """A virtual screen: the name of its display. Skips if Xvfb (package xvfb) is not installed."""
     if not shutil.which("Xvfb"):
         pytest.skip("Xvfb is not installed")
     read, write = os.pipe()

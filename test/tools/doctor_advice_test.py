@@ -1,4 +1,4 @@
-"""What doctor advises, on made-up findings; how it fares on live systems: test/ros/doctor*.test."""
+"""Advice of doctor on made-up findings. test/ros/doctor*.test cover live systems."""
 import math
 import os
 import pathlib
@@ -22,7 +22,7 @@ def fixture_doctor():
 
 
 def seen(topics=(), said=()):
-    """A system with topics {name: type} of one camera, and what nodes said {status: level}."""
+    """A system with topics {name: type} of one camera, and statuses {status: level} of the nodes."""
     system = object.__new__(observed_system.System)
     topics = dict(topics)
     system.graph = types.SimpleNamespace(publishers={topic: ["/camera"] for topic in topics},
@@ -246,7 +246,7 @@ def test_a_world_that_waits_for_the_detector_is_not_mended_by_another_clock(doct
 
 
 def said_by(doctor, *, alive=("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"), simulated_without_clock=False, **said):
-    """What doctor prints of a system in which these nodes are there and say {item: (level, message)}, `node__item` in all."""
+    """Output of doctor for a system with these nodes and statuses {item: (level, message)}, as `node__item`."""
     system = object.__new__(observed_system.System)
     system.nodes = system.alive = {name: f"/{name}" for name in alive}
     system.graph = types.SimpleNamespace(publishers={}, nodes=lambda: [f"/{name}" for name in alive])
@@ -347,14 +347,14 @@ def test_wrong_usage(words):
 
 
 def test_helps_before_the_package_is_built():
-    env = {"PATH": "/usr/bin:/bin"}  # without what was built
+    env = {"PATH": "/usr/bin:/bin"}  # without the built tools
     done = call(ROOT / "tools/doctor", "--help", env=env)
     assert done.returncode == 0 and "the command that mends it" in done.stdout, done
     assert call(ROOT / "tools/doctor", env=env).returncode == 2
 
 
 def test_a_node_that_hangs_is_waited_for_once_and_shortly(monkeypatch):
-    """Whatever rospy makes of the default of sockets."""
+    """Whatever rospy sets as the default time-out of sockets."""
     monkeypatch.setattr(live_system, "PATIENCE_S", 0.3)
     with socket.create_server(("localhost", 0)) as hangs:  # takes connections, answers nothing
         master = types.SimpleNamespace(getSystemState=lambda: ([], [], []), getTopicTypes=list,

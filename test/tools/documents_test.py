@@ -1,4 +1,4 @@
-"""Documents: every link leads somewhere, every command can be pasted and those of the README run, Doxygen has nothing to say."""
+"""Documents: every link leads somewhere, every command can be pasted, those of the README run, and Doxygen reports nothing."""
 import functools
 import os
 import pathlib
@@ -25,7 +25,7 @@ def outside_code(text):
 
 
 def anchors(text):
-    """As GitHub makes them of headings."""
+    """Anchors as GitHub makes them from headings."""
     headings = re.findall(r"^#+ (.*)$", text, flags=re.M)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -52,13 +52,13 @@ FOREIGN = "No module named", "Using PYTHON_EXECUTABLE", "RLException", "exit cod
 
 
 def longest_run(words, text):
-    """How many words of `words`, one after the other, stand in `text`."""
+    """Length of the longest sequence of `words` that occurs in `text`."""
     runs = ((begin, end) for begin in range(len(words)) for end in range(begin + 1, len(words) + 1))
     return max((end - begin for begin, end in runs if " ".join(words[begin:end]) in text), default=0)
 
 
 def test_what_troubleshooting_quotes_is_said_somewhere():
-    """Half of the longest stretch without numbers and names, at least: a source has formats for the rest."""
+    """At least half of the longest stretch without numbers and names: sources have formats for the rest."""
     sources = [file for folder in ("src", "tools", "nodes", "scripts") for file in (ROOT / folder).rglob("*")]
     joined = " ".join(re.sub(r'"\s*\n\s*f?"', "", file.read_text(encoding="utf-8")) for file in sources
                       if file.is_file() and file.suffix in (".cpp", ".hpp", ".py", ""))
@@ -84,7 +84,7 @@ def test_links_lead_somewhere(document):
 
 
 def test_one_thing_has_one_name():
-    """The glossary's: sign known, sign unknown."""
+    """Uses the glossary's terms: sign known, sign unknown."""
     folders = ("src", "include", "msg", "tools", "nodes")
     files = [*DOCUMENTS, *(file for folder in folders for file in (ROOT / folder).rglob("*") if file.is_file() and file.suffix != ".pyc")]
     others = re.compile(r"\b(sign open|side (open|certain)|signs?\b[^.;\n]*\bcertain)\b")
@@ -92,7 +92,7 @@ def test_one_thing_has_one_name():
 
 
 def files_named(cell, *folders):
-    """Names in backquotes that look like files; one without a folder lies beside the one before."""
+    """Names in backquotes that look like files. A name without a folder lies beside the previous one."""
     folder = ""
     for name in re.findall(r"`([\w/]+\.(?:hpp|cpp|py|cfg))`", cell):
         folder, _, file = name.rpartition("/") if "/" in name else (folder, "", name)
@@ -156,7 +156,7 @@ ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 
 @functools.lru_cache(maxsize=None)
 def explained(tool):
-    """All that is known of the tool's options: its own help, or the text of a script."""
+    """All text about the tool's options: its help, or the source of a script."""
     script = next((ROOT / folder / tool for folder in ROOMS if (ROOT / folder / tool).is_file()), None)
     return script.read_text(encoding="utf-8") if script else run(tool, "--help").stdout
 
@@ -167,7 +167,7 @@ def arguments_of(launch_file):
 
 @pytest.mark.parametrize("document", [file for file in DOCUMENTS if printed_commands(file)], ids=lambda file: file.name)
 def test_printed_commands_can_be_pasted(document):
-    """From the repository's folder, once it is built: what they call is there and takes these options."""
+    """Checks, for the repository's folder after a build, that commands exist and have these options."""
     for command in printed_commands(document):
         if re.match(ELSEWHERE, command):
             continue
@@ -210,7 +210,7 @@ def checked_elsewhere(command, _):
 
 
 def runs_a_tool(command, folder):
-    """The very command, with the user's own files stood in for, fewer flights, and its output elsewhere."""
+    """Runs this command with stand-ins for the user's files, fewer flights, and another output folder."""
     words = command.replace("1..20", "1..1").replace("out/demo/detection.png", "doc/detection.png").split()
     words = [str(folder / word) if word.startswith("out/") else word for word in words]
     done = call(*words, cwd=ROOT, timeout=600)
@@ -227,7 +227,7 @@ def launches(command, folder):
 
 
 def calls_a_service(command, folder):
-    """Of the nodes of the simulated world."""
+    """Calls a service of the nodes of the simulated world."""
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
@@ -250,7 +250,7 @@ def calls_a_service(command, folder):
 
 
 def is_of_mavros(command, _):
-    """Not installed here: the one line, as on the page of the autopilots."""
+    """MAVROS is not installed here: the command must be the same as on the page of autopilots."""
     assert f"{command} " in (ROOT / "doc/autopilots.md").read_text(encoding="utf-8")
 
 

@@ -1,4 +1,4 @@
-"""What the scripts make of detections whose worth is known."""
+"""Results of the scripts for detections of known quality."""
 import csv
 import math
 import sys

@@ -1,4 +1,4 @@
-"""What is drawn over views: the same again, in the promised measure, and nothing where it has no business."""
+"""Light and covers drawn over views: reproducible, of the stated strength, and only where they belong."""
 import csv
 
 import cv2

@@ -1,4 +1,4 @@
-"""Second views that are drawn: the same again, with the windows where the table says, and an honest verdict."""
+"""Rendered second views: reproducible, with the windows at the places in the table, and an honest verdict."""
 import csv
 import sys
 
@@ -15,7 +15,7 @@ WINDOWS = np.array([[[200, 200], [360, 205], [358, 330], [202, 326]], [[600, 210
 
 @pytest.fixture
 def photos(tmp_path):
-    """Two photographs of walls of coloured stones, each with two windows."""
+    """Two photographs of walls of coloured stones, with two windows each."""
     (tmp_path / "images").mkdir()
     with open(tmp_path / "annotations.csv", "w", newline="") as file:
         table = csv.writer(file)

@@ -1,4 +1,4 @@
-"""The matrix of faults: all rows are there, and its table tells the truth."""
+"""The fault matrix is complete, and its table agrees with the results."""
 import re
 import textwrap
 import xml.etree.ElementTree as ElementTree

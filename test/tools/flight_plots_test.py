@@ -1,4 +1,4 @@
-"""plot_flight, plot_miss, plot_gusts: what they read and say is right, what they draw is there, what they refuse is named."""
+"""plot_flight, plot_miss, plot_gusts: numbers are right, drawings are complete, and invalid input is refused by name."""
 import csv
 import math
 import pathlib
@@ -20,7 +20,7 @@ def state_at(t):
 
 
 def rows_of_flight():
-    """Along y = 0.1 - 0.02 * t from x = -5 at 1 m/s: crosses the plane after 5 s at y = 0, z = 0.05."""
+    """A flight along y = 0.1 - 0.02 * t from x = -5 at 1 m/s. It crosses the plane after 5 s at y = 0, z = 0.05."""
     for i in range(70):
         t = 0.1 * i
         row = dict.fromkeys(COLUMNS, "")
@@ -43,7 +43,7 @@ def write(file, rows, columns=COLUMNS):
 
 
 def share_of(picture, colour):
-    """How much of a picture has exactly this colour."""
+    """Fraction of a picture that has exactly this colour."""
     rgb = [int(colour[i:i + 2], 16) for i in (1, 3, 5)]
     return float(numpy.mean(numpy.all(picture == rgb[::-1], axis=2)))
 
@@ -168,7 +168,7 @@ def test_bags_with_and_without_the_truth_tell_the_same(truth, tmp_path):
     assert "crossed at 5.00 s, y +0.100 m, z +0.050 m" in done.stdout, done.stdout
     assert "actual miss 10.0 cm, predicted at most 12.0 cm" in done.stdout
     idle = [float(seconds) for seconds in re.findall(r"IDLE ([\d.]+) s", done.stdout)]
-    assert all(seconds < 2.0 for seconds in idle), done.stdout  # what was said before /clock ran has no time
+    assert all(seconds < 2.0 for seconds in idle), done.stdout  # messages before /clock ran have no time
     assert "APPROACH 3.0 s, COMMIT 2.0 s" in done.stdout and "ended in PASSED: as the test says" in done.stdout
     assert ("referee: PASSED: went through" in done.stdout) == (truth == "truth")
     picture = cv2.imread(str(tmp_path / "flight.png"))

@@ -1,4 +1,4 @@
-"""The layout for Foxglove: every panel is placed once, and names topics and fields that exist."""
+"""The Foxglove layout: every panel is placed once, and names existing topics and fields."""
 import json
 import re
 

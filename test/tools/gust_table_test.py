@@ -1,4 +1,4 @@
-"""tools/gust_table: a campaign for each wind, with and without the observer, a table and a picture."""
+"""tools/gust_table: one campaign for each wind, with and without the observer; a table and a picture."""
 import yaml
 
 from repository import rows_of, run
@@ -18,7 +18,7 @@ def test_flies_each_wind_with_and_without_the_observer(tmp_path):
 
 
 def test_wind_matters(tmp_path):
-    """The same seeds in still air and in a storm: other offsets, so the wind has reached the vehicle."""
+    """The same seeds in still air and in a storm give other offsets: the wind reaches the vehicle."""
     assert run("gust_table", "--output", tmp_path, "--speeds", 0, 6, "--seeds", "1..2").returncode == 0
     still, storm = ((tmp_path / f"observer_on_{v}/flights.csv").read_text() for v in (0, 6))
     assert still != storm

@@ -1,4 +1,4 @@
-"""Odometry of a camera carried before a window: it goes the way that it is carried, and stands when it sees nothing."""
+"""Odometry of a camera carried in front of a window: it moves like the camera, and stands when it sees nothing."""
 import numpy
 import pytest
 
@@ -16,7 +16,7 @@ def turn(yaw, pitch=0.0, roll=0.0):
 
 
 def seen(place, rotation, window=(3.0, 0.0, 0.0)):
-    """The window (its axes those of the room) in the camera of a body at this place and turn."""
+    """The window (its axes are the room's) in the camera of a body at this place and attitude."""
     return R_BODY_CAMERA.T @ rotation.T, R_BODY_CAMERA.T @ rotation.T @ (numpy.array(window) - place)
 
 
@@ -42,7 +42,7 @@ def test_sees_how_it_is_turned_and_that_it_goes_sideways():
     attitude = turn(0.3, 0.1, -0.05)
     end_s = carried(hand, [(0.0, 0.2 * i / RATE_HZ, 0.0) for i in range(60)], [attitude] * 60)
     _, velocity, rotation = hand.at(end_s)
-    level = turn(0.3).T @ rotation @ turn(0.3)  # odom begins with its nose ahead
+    level = turn(0.3).T @ rotation @ turn(0.3)  # odom begins with the nose ahead
     assert numpy.linalg.norm(velocity) == pytest.approx(0.2, abs=0.02)
     assert numpy.arcsin(-rotation[2, 0]) == pytest.approx(0.1, abs=0.02) and abs(level[1, 0]) < 0.05
 
@@ -75,7 +75,7 @@ def test_a_mirrored_beginning_is_mended_by_the_evidence_of_many_images():
     hand.see(0.0, [mirrored, true], 0.1)
     for i in range(1, 40):
         hand.see(i / RATE_HZ, [true, mirrored], 0.5)
-    hand.see(40 / RATE_HZ, [mirrored, true], 5.0)  # one image says little
+    hand.see(40 / RATE_HZ, [mirrored, true], 5.0)  # one image is not enough
     _, velocity, rotation = hand.at(40 / RATE_HZ)
     assert numpy.linalg.norm(velocity) < 0.01
     before = hand.at(40 / RATE_HZ)[0]

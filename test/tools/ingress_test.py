@@ -1,4 +1,4 @@
-"""The command ingress: every sub-command leads to a tool that is there, in a clone, in a workspace and installed."""
+"""The command ingress: every sub-command leads to an existing tool, in a clone, in a workspace and installed."""
 import os
 import re
 import shutil
@@ -45,7 +45,7 @@ def test_wrong_usage_is_said_in_one_line(words):
 
 @pytest.mark.parametrize("words", ingress.COMMANDS)
 def test_help_has_one_shape(words):
-    """What it does, usage, options, one example whose options there are, exit codes."""
+    """Help says what the tool does, its usage, options, one example with existing options, and exit codes."""
     _, does, example = ingress.COMMANDS[words]
     done = call(INGRESS, *words.split(), "--help", cwd=ROOT)
     assert done.returncode == 0 and not done.stderr
@@ -107,7 +107,7 @@ def test_completion_lists_everything():
     for group in ingress.GROUPS:
         assert complete(group, "") == [words.split()[1] for words in ingress.COMMANDS if words.startswith(f"{group} ")]
     assert "--sshloginfile" in complete("campaign", "--ss")
-    assert not complete("campaign", "config/")  # files are bash's
+    assert not complete("campaign", "config/")  # bash completes files
 
 
 def test_completion_in_bash():
@@ -148,7 +148,7 @@ def test_installed_it_runs_the_tools_beside_it(tmp_path):
 
 def test_in_a_workspace_it_runs_the_tools_of_the_workspace(tmp_path):
     relay = (f"#!/usr/bin/env python3\nfile = {str(INGRESS)!r}\n"
-             "exec(compile(open(file).read(), file, 'exec'), {'__file__': file, '__name__': '__main__'})\n")  # as catkin writes it
+             "exec(compile(open(file).read(), file, 'exec'), {'__file__': file, '__name__': '__main__'})\n")  # like catkin's relay
     library = tmp_path / "devel/lib/window_ingress"
     pretend(library / "fly", FLY)
     for folder in (tmp_path / "devel/bin", library):

@@ -10,8 +10,8 @@ from repository import ROOT, rows_of, run
 
 DATA = ROOT / "../shared/data"
 WALL_BGR = (145, 163, 172)
-SHOWS_ALL = 104  # number of an image in which all three are whole
-# Inner borders on the wall, in the target's axes [m]: left, right, top, bottom; and around what is painted over.
+SHOWS_ALL = 104  # index of an image in which all three are whole
+# Inner borders on the wall in the target's axes [m]: left, right, top, bottom. Then the areas that are painted over.
 BORDERS_M = {"target": (0.65, -0.65, 0.55, -0.55), "poster": (2.853, 1.962, 0.590, -0.195), "glass": (-1.806, -2.602, 0.494, -0.304)}
 FRAME_M = 0.16
 
@@ -25,7 +25,7 @@ def corners_on_wall(name, grown_m=0.0):
 
 
 class Kiosk:
-    """The recording, with all but one of the three painted over."""
+    """The recording with two of the three painted over."""
 
     def __init__(self):
         self.bag = rosbag.Bag(str(DATA / "kiosk.bag"))
@@ -34,7 +34,7 @@ class Kiosk:
         self.poses = {m.header.stamp: m.pose for _, m, _ in read(topics=["/ground_truth/window_in_camera"])}
 
     def pixels(self, stamp, points):
-        """Nothing where one of them is behind the camera."""
+        """Nothing if one of the points is behind the camera."""
         pose = self.poses[stamp]
         place = np.array([pose.position.x, pose.position.y, pose.position.z])
         in_camera = points @ rotation_of(pose.orientation).T + place
@@ -44,7 +44,7 @@ class Kiosk:
         return np.clip(projected[:, :2] / projected[:, 2:], -20000, 20000)
 
     def only(self, name, folder):
-        """\\return bag, image that shows it, its corners there"""
+        """Returns the bag, an image that shows this one, and its corners there."""
         seen = 0
         with rosbag.Bag(str(folder / "flight.bag"), "w") as out:
             for topic, message, time in self.bag.read_messages():

@@ -1,4 +1,4 @@
-"""Launch files: they load, and their remaps lead setpoints from the navigator over the guard to the autopilot, never past it."""
+"""Launch files load, and their remaps lead setpoints from the navigator through the guard to the autopilot, never past the guard."""
 import json
 import pathlib
 import re
@@ -19,7 +19,7 @@ LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
 NEEDED = {"replay": ["bag:=/tmp/none.bag"], "record": ["name:=/tmp/none"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
 VEHICLE = ROOT / "test/ros/vehicle.yaml"
 SIZE = ["window_size:=1.2,1.0", f"config:={VEHICLE}"]
-GIVEN = {**NEEDED, "px4": SIZE, "ardupilot": SIZE, "mavros": [*NEEDED["mavros"], *SIZE]}  # and without which nothing is flown
+GIVEN = {**NEEDED, "px4": SIZE, "ardupilot": SIZE, "mavros": [*NEEDED["mavros"], *SIZE]}  # without these nothing is flown
 CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
 
 
@@ -87,7 +87,7 @@ def test_in_flight_no_node_takes_the_guard_with_it(name):
 @pytest.mark.parametrize("name, arguments", [("replay", ["rviz:=true"]), ("replay", []), ("rehearse", []), ("px4", ["fly:=false"])])
 def test_where_nothing_flies_a_node_that_ends_ends_the_launch(name, arguments):
     nodes = dump(name, *arguments)["nodes"]
-    goes_on = {"/play"}  # the end of a bag is looked at
+    goes_on = {"/play"}  # to look at the end of a bag
     assert len(nodes) >= 2 and not [node for node, what in nodes.items() if what["respawn"] or not what["required"] and node not in goes_on]
 
 
@@ -153,7 +153,7 @@ def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name):
 
 
 def test_what_flies_without_saying_sizes_is_told_by_which_it_flies(tmp_path):
-    """ingress.launch is for other autopilots, too, and for simulators; those of the package say their sizes."""
+    """ingress.launch is also for other autopilots and for simulators. The package's own launch files state their sizes."""
     said = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch").stderr
     for warning in ("the opening's size is missing: ", "assuming 1.2 x 1 m", "the vehicle's size is missing: ", "no reference image"):
         assert warning in said, said
@@ -234,7 +234,7 @@ def test_a_mounting_is_given_with_or_without_brackets(name):
 
 
 def refusal(*launch):
-    """What roslaunch says before it starts anything."""
+    """The refusal that roslaunch prints before it starts anything."""
     done = run("roslaunch", "--nodes", *launch)
     assert done.returncode == 1 and not done.stdout, done.stdout
     return done.stderr
@@ -287,7 +287,7 @@ def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_pat
     else:
         assert "does not fit through the opening, 0.55 x 0.4 m, with 0.05 m on each side" in refusal(*launch)
     config.write_text("vehicle: {half_length_m: 0.25, half_width_m: 0.7, half_height_m: 0.12}\n"
-                      "homography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
+                      "homography_pose: {pose: {scale_sigma: 0.5}}\n")  # measured in flight
     assert run("roslaunch", "--nodes", *launch).returncode == 0
 
 
@@ -578,7 +578,7 @@ def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
 
 
 def played(*arguments):
-    """Topics that rosbag play is told to play."""
+    """Topics that rosbag play plays."""
     args = dump("replay", *arguments)["nodes"]["/play"]["args"]
     return args.split("--topics ")[1].split(" --bags")[0].split()
 

@@ -1,4 +1,4 @@
-"""learn_vehicle: from a recorded flight to the parameter file of the next one."""
+"""learn_vehicle makes the parameter file of the next flight from a recorded one."""
 import pytest
 import yaml
 

@@ -1,4 +1,4 @@
-"""look_at_board.py: whatever it looks from, the whole board is in the image, and the views differ as a calibrator wants."""
+"""look_at_board.py: the whole board is in every image, and the views differ enough for a calibrator."""
 import numpy
 import pytest
 
@@ -14,7 +14,7 @@ CORNERS = [(5.0, 0.1 * (3.5 - column), 1.5 + 0.1 * (2.5 - row)) for row in range
 
 
 def seen(view):
-    """Pixels of the inner corners; the camera is the vehicle's centre, x forward, y left, z up."""
+    """Pixels of the inner corners. The camera is at the vehicle's centre: x forward, y left, z up."""
     place, angles = look_at_board.pose(*view)
     forward, left, up = matrix_of(look_at_board.quaternion(*angles)).T @ (numpy.array(CORNERS) - place).T
     assert (forward > 0.3).all()

@@ -1,4 +1,4 @@
-"""Each oracle of the fault rows lets a good recording pass and finds what is wrong in a bad one."""
+"""Each oracle of the fault rows accepts a good recording and finds the fault in a bad one."""
 import math
 import os
 import sys
@@ -21,7 +21,7 @@ def setpoints(speed_of, begin=0.0, end=10.0, rate_hz=30.0, source=NAVIGATOR):
 
 
 def ramp(t):
-    """Up to 0.8 m/s within the acceleration, down to zero at once at 5 s."""
+    """Up to 0.8 m/s within the permitted acceleration, and at once down to zero at 5 s."""
     return min(0.8, 1.4 * max(0.0, t - 1.0)) if t < 5.0 else 0.0
 
 

@@ -1,4 +1,4 @@
-"""A rehearsal from a video file: a mission begins by what is seen in it; what cannot be played is said."""
+"""A rehearsal from a video file: its window starts a mission, and a file that cannot be played is reported."""
 import os
 import signal
 import socket
@@ -30,7 +30,7 @@ projection_matrix: {{rows: 3, cols: 4, data: [{FOCAL}, 0, 319.5, 0, 0, {FOCAL}, 
 
 @pytest.fixture(name="folder", scope="module")
 def fixture_folder(tmp_path_factory):
-    """With eight seconds of a camera that is carried towards the printed window, and its calibration."""
+    """A folder with eight seconds of a camera carried towards the printed window, and its calibration."""
     folder = tmp_path_factory.mktemp("video")
     (folder / "camera.yaml").write_text(CALIBRATION)
     video = cv2.VideoWriter(str(folder / "hand.avi"), cv2.VideoWriter_fourcc(*"MJPG"), 20.0, (WIDTH, HEIGHT))
@@ -48,7 +48,7 @@ def fixture_folder(tmp_path_factory):
 
 
 def rehearse(folder, *arguments, seconds=60):
-    """\\return all that roslaunch says until it ends, and its exit code"""
+    """Returns all output of roslaunch until it ends, and its exit code."""
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]

@@ -1,4 +1,4 @@
-"""The layout for PlotJuggler names topics and fields that exist."""
+"""The PlotJuggler layout names existing topics and fields."""
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -10,7 +10,7 @@ TWISTS = {"/cmd_vel", "/ingress_navigator/cmd_vel"}
 
 
 def numbers_of(kind):
-    """Those of the message and of its members that have a file of their own."""
+    """Numbers of the message and of those members that have message files of their own."""
     text = (ROOT / f"msg/{kind}.msg").read_text()
     fields = re.findall(r"^(\w+) (\w+)\s*(?:#.*)?$", text, re.M)
     nested = {f"{name}/{number}" for type_, name in fields if (ROOT / f"msg/{type_}.msg").exists() for number in numbers_of(type_)}

@@ -1,4 +1,4 @@
-"""print_window: the printed frame is true to scale, whole, and is the one that its reference and parameter file describe."""
+"""print_window: the printed frame is true to scale, complete, and agrees with its reference and parameter file."""
 import re
 
 import cv2
@@ -14,7 +14,7 @@ ORANGE, DPI = "#e15f14", 50.8  # two pixels a millimetre
 
 
 def printed(figure):
-    """The sheet as it comes out of the printer: true where there is colour; its rows from above."""
+    """The printed sheet: true where it is coloured; rows from the top."""
     figure.set_dpi(DPI)
     figure.canvas.draw()
     pixels = numpy.asarray(figure.canvas.buffer_rgba())[:, :, :3].astype(int)
@@ -23,7 +23,7 @@ def printed(figure):
 
 
 def glued(window):
-    """The sheets cut along their dashed lines and put together, as the plan says; two pixels a millimetre."""
+    """The sheets cut along their dashed lines and joined as planned; two pixels a millimetre."""
     left, below = (printer.PAGE_MM[0] - printer.TILE_MM[0]) / 2, (printer.PAGE_MM[1] - printer.TILE_MM[1]) / 2 + 4
     width, height = (round(2 * side) for side in printer.TILE_MM)
     top = round(2 * (printer.PAGE_MM[1] - below)) - height

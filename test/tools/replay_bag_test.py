@@ -1,4 +1,4 @@
-"""replay_bag as people use it: the tables, the page made of them, and what it says about bags that lack something."""
+"""replay_bag as people use it: the tables, their report page, and messages about incomplete bags."""
 import html.parser
 import json
 import re
@@ -109,7 +109,7 @@ def test_raw_and_compressed_and_any_names_of_topics(tmp_path):
 
 
 def test_the_reference_is_that_of_the_bag_unless_another_is_given(tmp_path):
-    """Before an orange window: a bag whose target is a blue one; the same with a photograph of the orange one."""
+    """In front of an orange window: a bag with a blue reference, then the same bag with a photograph of the orange window."""
     bag = bag_of(tmp_path, "seconds=1", "reference")
     orange = numpy.full((480, 640, 3), 190, numpy.uint8)
     cv2.rectangle(orange, (204, 134), (436, 326), (20, 95, 225), -1)

@@ -1,4 +1,4 @@
-"""What several tests of tools share: where things lie, how they are called and what they write is read."""
+"""Helpers of the tests of tools: paths, calls, and reading of output."""
 import csv
 import importlib.machinery
 import importlib.util
@@ -14,12 +14,12 @@ def call(*command, timeout=300, **options):
 
 
 def run(tool, *arguments, **options):
-    """As a user does."""
+    """Runs a tool as a user does."""
     return call(ROOT / "scripts/run", tool, *arguments, **options)
 
 
 def load(program):
-    """A program as a module; its name may have no ending."""
+    """Loads a program as a module; its name may have no suffix."""
     loader = importlib.machinery.SourceFileLoader(program.rpartition("/")[2].partition(".")[0], str(ROOT / program))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
@@ -32,5 +32,5 @@ def rows_of(file):
 
 
 def timeless(file):
-    """The rows of a survey but for what no two runs have in common."""
+    """The rows of a survey without columns that differ from run to run."""
     return [{name: value for name, value in row.items() if name != "milliseconds"} for row in rows_of(file)]

@@ -1,4 +1,4 @@
-"""Every program lies in the room that is its own, and whatever names one names it where it lies."""
+"""Every program lies in the folder for its kind, and every path to it is right."""
 import re
 
 import pytest

@@ -15,7 +15,7 @@ from repository import ROOT
 UP_WITHIN_S = 90.0
 COMPLAINTS = ("failed to load", "could not be loaded", "does not exist", "unable to open", "error when loading", "exception",
               "segmentation")
-NOISE = ("media_export", "librospack")  # rviz asks for packages that export pictures; there is none
+NOISE = ("media_export", "librospack")  # rviz looks for packages with media exports; there are none
 
 pytestmark = pytest.mark.skipif(not shutil.which("rviz"), reason="rviz is not installed")
 
@@ -27,7 +27,7 @@ def free_port():
 
 
 def asked_by_rviz(port):
-    """Topics that rviz subscribes to, as the master knows it."""
+    """Topics that rviz subscribes to, as the master reports."""
     try:
         _, _, (_, subscribed, _) = xmlrpc.client.ServerProxy(f"http://localhost:{port}").getSystemState("/test")
     except OSError:
@@ -36,7 +36,7 @@ def asked_by_rviz(port):
 
 
 def view(screen, folder, *arguments, awaits=("/markers",)):
-    """Opens view.launch until it has subscribed to `awaits`. Returns all its topics and what it said."""
+    """Opens view.launch until it has subscribed to `awaits`. Returns all its topics and its output."""
     port = free_port()
     environment = dict(os.environ, DISPLAY=screen, ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost",
                        ROS_HOME=str(folder), ROS_LOG_DIR=str(folder / "log"), XDG_RUNTIME_DIR=str(folder))

@@ -1,4 +1,4 @@
-"""tools/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
+"""tools/search_envelope: a search is repeatable, can be resumed, and finds, simplifies and keeps contacts."""
 import re
 
 import pytest
@@ -7,12 +7,12 @@ import yaml
 from repository import ROOT, call, rows_of, run
 
 CALM = "glass: excluded\nunverified_opening: allow\nstart: {distance_m: [3.0, 3.5], off_axis_rad: [-0.1, 0.1]}\n"
-# Behind the brake nothing helps: the vehicle obeys random velocities.
+# No safeguard stands behind the brake: the vehicle obeys random velocities.
 DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_sec: [2.0, 4.0], duration_sec: 20.0}]\n"
 
 
 def search(folder, *arguments):
-    """As `ingress evaluate envelope` runs it: in a workspace through catkin's relay, which has no module's name."""
+    """Called like `ingress evaluate envelope` in a workspace: by catkin's relay, which has no module name."""
     return call(ROOT / "scripts/ingress", "evaluate", "envelope", "--output", folder, "--jobs", "2", *arguments)
 
 
@@ -73,6 +73,6 @@ def test_a_scenario_without_ranges_is_no_envelope(tmp_path):
 
 
 def test_only_whole_numbers_have_ranges_of_whole_numbers():
-    """What is kept of a find is settled by the type of its range, and flown by the type of its key."""
+    """A kept find has a value of its range's type; a flight uses the type of the key."""
     text = (ROOT / "config/envelope.yaml").read_text()
     assert set(re.findall(r"(\w+): \[-?\d+, -?\d+\]", text)) == {"texture_seed"}

@@ -1,4 +1,4 @@
-"""A launch beside one that runs: ROS would end the nodes of the first, the guard of a flying vehicle among them."""
+"""A second launch beside a running one: ROS would end the nodes of the first, including the guard of a flying vehicle."""
 import contextlib
 import os
 import threading
@@ -11,7 +11,7 @@ from repository import run
 
 @contextlib.contextmanager
 def master(running=(), died=()):
-    """A stand-in for roscore and for the nodes that run: \\return its port."""
+    """A stand-in for roscore and running nodes. Returns its port."""
     server = xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False)
     uri = f"http://localhost:{server.server_address[1]}/"
     known = {**{node: uri for node in running}, **{node: "http://localhost:1/" for node in died}}
@@ -24,7 +24,7 @@ def master(running=(), died=()):
 
 
 def launched(port, *arguments, by_option=False):
-    """What roslaunch says before it starts anything; the file that is not there ends it in any case."""
+    """Output of roslaunch before it starts anything; a missing file ends it in any case."""
     option, uri = (["-p", port], "http://localhost:1") if by_option else ([], f"http://localhost:{port}")
     done = run("roslaunch", *option, *arguments, "config:=/nowhere.yaml", env={**os.environ, "ROS_MASTER_URI": uri})
     assert done.returncode == 1, done.stdout

@@ -1,4 +1,4 @@
-"""scripts/setup on other systems: which it takes, and what it says where it cannot. apt and dpkg are stood in for."""
+"""scripts/setup on other systems: which it supports, and its messages otherwise. apt and dpkg are replaced."""
 import os
 import pathlib
 import re
@@ -107,7 +107,7 @@ def test_check_platform_refuses_what_it_cannot_do(arguments):
 
 
 def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
-    """dev/check_install with a build that stops half-way: roslaunch would find what it left."""
+    """dev/check_install with a build that fails half-way: roslaunch would find its files."""
     for folder in ("dev", "scripts", "build/ros"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "build/ros/CMakeCache.txt").write_text("")

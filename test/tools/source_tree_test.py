@@ -1,4 +1,4 @@
-"""The tree of C++ sources: small folders, an interface that stands alone, tests that mirror what they test."""
+"""The tree of C++ sources: small folders, a self-contained interface, tests that mirror the sources."""
 import collections
 import re
 
@@ -37,7 +37,7 @@ def test_the_interface_is_small():
 
 
 def test_the_interface_stands_alone():
-    """What is installed includes nothing that is not."""
+    """Installed headers include only installed headers."""
     private = [f"{header.relative_to(ROOT)}: {name}" for header in HEADERS for name in included_by(header) if not (ROOT / "include" / name).exists()]
     assert not private
 
@@ -63,7 +63,7 @@ def test_a_test_stands_where_its_subject_does(test):
 
 
 def hidden_names(file):
-    """What unnamed namespaces of a source define: constants, types, and functions with what they take."""
+    """Names in unnamed namespaces of a source: constants, types, and functions with their arguments."""
     for block in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", file.read_text(encoding="utf-8"), re.M | re.S):
         block = re.sub(r"//.*", "", block)
         for statement in re.findall(r"^(?=[\w[]).*?(?=[;{]|\n\n)", block, re.M | re.S):
@@ -81,7 +81,7 @@ def hidden_names(file):
 
 @pytest.mark.parametrize("library, but", [("adapters", ""), ("detection", ""), ("evaluation", ""), ("simulation", ""), ("*", "adapters|detection|evaluation|simulation|nodes|tools|interior|perception")])
 def test_unnamed_namespaces_share_no_name(library, but):
-    """Sources are compiled in batches: whichever of them meet, no name may stand for two things."""
+    """Sources are compiled in batches, in any combination, so these names must be unique."""
     found = collections.defaultdict(set)
     for file in (ROOT / "src").glob(f"{library}/**/*.cpp"):
         if not but or not re.search(f"/src/({but})/|/interior/", str(file)):

@@ -1,4 +1,4 @@
-"""The survey of the detector: repeatable, the same from files, honest about what is not there."""
+"""The survey of the detector is repeatable, gives the same from files, and reports missing windows honestly."""
 import pytest
 
 from repository import rows_of, run, timeless

@@ -1,4 +1,4 @@
-"""The survey of the pose: repeatable, near the bound, refuses what it cannot use; its plots and table."""
+"""The survey of the pose is repeatable, near the bound, and refuses unusable input; its plots and table."""
 import pytest
 
 from repository import ROOT, rows_of, run

@@ -1,4 +1,4 @@
-"""The survey of the tracker: repeatable; what it cannot do it says."""
+"""The survey of the tracker is repeatable and reports what it cannot do."""
 import pytest
 
 from repository import run, timeless

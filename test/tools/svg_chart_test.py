@@ -1,4 +1,4 @@
-"""Charts of the report: round ticks, gaps where nothing is known, nothing outside the frame."""
+"""Charts of the report: round ticks, gaps for missing values, nothing outside the frame."""
 import math
 import re
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""Tuning tools and the operator's reference: without a display, on images that the test makes; with one where there is Xvfb."""
+"""Tuning tools and the reference tool: on generated images without a display, and with one if Xvfb is installed."""
 import csv
 import os
 import re
@@ -15,7 +15,7 @@ from repository import ROOT, run
 
 WIDTH, HEIGHT, FOCAL = 320, 240, 250.0
 OPENING = (1.2, 1.0)  # m
-BLIND = "window_detector: {detector: {gates: {min_area: 0.5}}}\n"  # no window is that large
+BLIND = "window_detector: {detector: {gates: {min_area: 0.5}}}\n"  # larger than any window
 
 
 def answer(*command, **environment):
@@ -24,7 +24,7 @@ def answer(*command, **environment):
 
 
 def corners_at(x, z):
-    """Of a window square in front of the camera, `x` to its right, `z` ahead [m]; pixels, clockwise from top left."""
+    """Corners of a window that faces the camera, `x` to its right, `z` ahead [m]; pixels, clockwise from top left."""
     half_w, half_h = FOCAL * OPENING[0] / 2 / z, FOCAL * OPENING[1] / 2 / z
     cx, cy = (WIDTH - 1) / 2 + FOCAL * x / z, (HEIGHT - 1) / 2
     return [(cx - half_w, cy - half_h), (cx + half_w, cy - half_h), (cx + half_w, cy + half_h), (cx - half_w, cy + half_h)]
@@ -46,7 +46,7 @@ NAMES = "abcdefghijkl"
 
 @pytest.fixture(scope="module")
 def labelled(tmp_path_factory):
-    """Folder with twelve images of a window, two of a wall, and labels.csv."""
+    """A folder with twelve images of a window, two of a wall, and labels.csv."""
     folder = tmp_path_factory.mktemp("labelled")
     with open(folder / "labels.csv", "w", newline="") as file:
         table = csv.writer(file)
@@ -62,7 +62,7 @@ def labelled(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
-    """The same views as a flight with calibration and truth, an image a second."""
+    """The same views as a flight with calibration and truth, one image a second."""
     file = tmp_path_factory.mktemp("bag") / "views.bag"
     numpy.savez(file.with_suffix(".npz"), pictures=[window_image(corners_at(*view), i) for i, view in enumerate(VIEWS)], views=VIEWS)
     script = f"""
@@ -143,7 +143,7 @@ def test_a_display_that_is_gone_is_said(labelled, tmp_path):
 
 @pytest.fixture(name="display")
 def fixture_display(screen):
-    """A screen with somebody who types and clicks."""
+    """A display with a simulated user who types and clicks."""
     if not shutil.which("xdotool"):
         pytest.skip("xdotool is not installed")
     return screen
@@ -156,7 +156,7 @@ def titled(display, title):
 
 
 def press(display, window, action):
-    """A key, or a click "x,y". What it leads to has to be awaited: highgui keeps only the last key between two looks."""
+    """A key, or a click "x,y". The caller waits for its effect: highgui keeps only the last key between two polls."""
     if "," in action:
         command = ["mousemove", "--window", window, *action.split(","), "click", "1"]
     else:
@@ -231,7 +231,7 @@ def test_tune_from_bag_says_what_is_wrong(labelled, arguments, words):
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
 
 
-# --- what is there already
+# --- existing output
 @pytest.mark.parametrize("command, there", [
     (("make_reference", "IMAGE", "--output", "window.png"), "window.png"), (("make_reference", "IMAGE", "--output", "window.png"), "window.yaml"),
     (("make_reference", "IMAGE", "--output", "window.png"), "window_understood.png"), (("tune_detector", "FOLDER", "--output", "my.yaml"), "my.yaml"),
@@ -291,7 +291,7 @@ def test_a_fit_says_how_far_each_side_moved(labelled, tmp_path):
 
 
 def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
-    """The inner edge on the right does not show; the frame's outer one, five pixels further, does."""
+    """The inner edge on the right is invisible; the frame's outer edge, five pixels away, is visible."""
     image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
     image[60:181, 80:221] = (20, 95, 225)
     image[69:172, 89:216] = (60, 50, 45)
@@ -304,7 +304,7 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
 
 
 def test_the_corners_of_the_page_are_fitted_in_a_deep_frame(tmp_path):
-    """Four pixels beside the front edge lies that of the shaded side of the frame, which is the stronger."""
+    """The edge of the frame's shaded side is stronger, four pixels beside the front edge."""
     said_there = re.search(r"ingress reference photo.jpg --output window.png --corners (\S+) --fit", (ROOT / "doc/window.md").read_text(encoding="utf-8"))[1]
     left, top, right, _, _, bottom, *_ = (int(number) for number in said_there.split(","))
     image = numpy.full((480, 640, 3), 190, numpy.uint8)
@@ -330,7 +330,7 @@ def test_corners_that_are_saved_beside_the_edges_are_said_to_be(labelled, tmp_pa
 def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
     image = cv2.imread(str(labelled / "a.png"))
     (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
-    image[top + 20:bottom - 20, left - 12:left + 12] = (60, 50, 45)  # somebody stands before it
+    image[top + 20:bottom - 20, left - 12:left + 12] = (60, 50, 45)  # an occluder
     cv2.imwrite(str(tmp_path / "hidden.png"), image)
     code, _, errors = answer("make_reference", tmp_path / "hidden.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
     assert code == 1 and "% of one side lie on a straight edge" in errors and "correct the corners" in errors, errors
@@ -347,7 +347,7 @@ def test_corners_are_clicked(labelled, tmp_path, display, off, times):
         for _ in range(times):
             assert process.poll() is None and not (tmp_path / "a.png").exists()
             press(display, titled(display, "four corners"), "Return")
-            time.sleep(1.0)  # until it has been looked at
+            time.sleep(1.0)  # until the tool has polled it
         process.communicate(timeout=120)
     finally:
         process.kill()

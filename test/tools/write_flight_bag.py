@@ -61,7 +61,7 @@ def main():
             t = 0.1 * i
             messages = [(topic, odometry(t - 5.0)) for topic in odom]
             messages += [("/ground_truth/odom", odometry(t - 5.0)), ("/ground_truth/window", window())] * (what == "truth")
-            unheard = what == "truth" and t < 0.25  # by a recorder that came late
+            unheard = what == "truth" and t < 0.25  # not recorded: the recorder came late
             messages += [("/state", state(t))] * (what != "no_state" and not unheard)
             messages += [("/window_pose", window_pose())] * (what != "no_pose" and i % 2 == 0)
             if what == "truth":

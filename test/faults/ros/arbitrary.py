@@ -1,4 +1,4 @@
-"""Messages of any type with anything in them: a sound one, some of whose members are replaced (strategies of hypothesis)."""
+"""Arbitrary messages of any type: a valid message with some members replaced (strategies of hypothesis)."""
 import copy
 
 import genpy
@@ -10,7 +10,7 @@ NAMES = ("", "odom", "base_link", "camera_optical_frame", "map", "/odom", "plumb
 
 
 def member(kind):
-    """Values that a member of this type may have; None for a type that is no leaf."""
+    """Values that a member of this type may have; None for a compound type."""
     if kind in UNSIGNED:
         return strategies.integers(0, 2 ** UNSIGNED[kind] - 1)
     if kind in SIGNED:
@@ -27,7 +27,7 @@ def member(kind):
 
 
 def values(kind):
-    """The same for leaves and for lists of them, of their fixed length or of any."""
+    """Values for members that are no lists, and for lists of them, of fixed or any length."""
     base, _, length = kind.partition("[")
     one = member(base)
     if one is None or not length:
@@ -40,7 +40,7 @@ def values(kind):
 
 
 def leaves(message, owner=()):
-    """[(path, values)] of everything in it that can be replaced."""
+    """[(path, values)] of every member of the message that can be replaced."""
     found = []
     for name, kind in zip(message.__slots__, message._slot_types):
         part, strategy = getattr(message, name), values(kind)
@@ -58,7 +58,7 @@ def part_of(owner, name):
 
 
 def like(sound):
-    """Messages like this one, up to six members replaced."""
+    """Messages like this one, with up to six members replaced."""
     places = leaves(sound)
 
     @strategies.composite

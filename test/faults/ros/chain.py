@@ -1,4 +1,4 @@
-"""A vehicle that stands before a window, for nodes that believe to fly: what its camera and its autopilot would send."""
+"""Camera and autopilot of a vehicle that stands in front of a window, for nodes that believe to fly."""
 import time
 
 import numpy
@@ -16,7 +16,7 @@ MOVES_WITHIN_S = 20.0
 
 
 def window_image(shift_px=0):
-    """A plaster wall with an orange frame round a dark opening."""
+    """A plaster wall with an orange frame around a dark opening."""
     image = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
     frame = support.FRAME_PX
     image[TOP - frame:BOTTOM + frame, LEFT - frame + shift_px:RIGHT + frame + shift_px] = (20, 95, 225)
@@ -31,7 +31,7 @@ def later(seconds):
 
 
 class Chain:
-    """Everything that the nodes want, streamed; `streams[topic].make` can be replaced."""
+    """Streams every input of the nodes; `streams[topic].make` can be replaced."""
 
     def __init__(self):
         self.camera = support.Camera(window_image())
@@ -53,7 +53,7 @@ class Chain:
         return support.call(f"ingress_navigator/{service}")
 
     def fly(self, monitor):
-        """Until the vehicle is told to go on, from whatever state."""
+        """Waits until the vehicle is commanded to move, from any state."""
         def moves():
             states = monitor.states_since(time.monotonic() - 1.5)
             if not states or not states[-1].enabled:

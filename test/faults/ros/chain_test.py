@@ -34,16 +34,16 @@ from homography_pose_test import detection
 
 NAN, INF = float("nan"), float("inf")
 STOPS, FLIES_ON, GOES_ON = "stops", "flies on", "goes on as soon as it has looked"
-WATCH_S = 0.5        # how long after the limit of O4 the setpoints are watched
-LASTS_S = 1.0        # a fault that must not stop the vehicle is borne so long
+WATCH_S = 0.5        # time for which setpoints are watched after the limit of O4
+LASTS_S = 1.0        # duration of a fault that must not stop the vehicle
 
-# row, what it is, topic, how its messages are changed, (status, words...) that name the cause, what the vehicle does
+# row, description, topic, change of its messages, (status, words...) that name the cause, reaction of the vehicle
 Row = collections.namedtuple("Row", "row what topic change says does counts")
-Row.__new__.__defaults__ = (None,)  # counts: words that the images' status holds all the same
+Row.__new__.__defaults__ = (None,)  # counts: words that the images' status contains nevertheless
 
 
 def sized(width, height, encoding="bgr8"):
-    """Other images of that size, of the same scene."""
+    """Other images of this size, of the same scene."""
     pixels = cv2.resize(chain.window_image(), (width, height))
     if encoding == "mono8":
         pixels = cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY)
@@ -58,7 +58,7 @@ def sized(width, height, encoding="bgr8"):
 
 
 class Repeating:
-    """Every stamp twice."""
+    """Sends every stamp twice."""
 
     def __init__(self, make):
         self._make, self._count, self._stamp = make, 0, None
@@ -70,7 +70,7 @@ class Repeating:
 
 
 class Shuffled:
-    """Every other message is older than the one before it."""
+    """Every second message is older than the one before it."""
 
     def __init__(self, make, seconds):
         self._make, self._seconds, self._count = make, seconds, 0
@@ -170,7 +170,7 @@ class ChainTest(unittest.TestCase):
         return "named" if stopped is None else f"stands after {stopped:.2f} s"
 
 
-    # --- rows that are no change of one stream
+    # --- rows that change more than one stream
 
     def test_M21_jpeg_that_is_cut_off_or_damaged(self):
         said, windows = "compressed_detector: image", support.Listener("seen_in_jpeg", WindowDetection)
@@ -324,7 +324,7 @@ class ChainTest(unittest.TestCase):
         note("M72", f"answered within {1e3 * slowest:.0f} ms, last motion {1e3 * zero:.0f} ms after")
 
     def lead_into(self, state):
-        """Of an idle navigator; SEARCH and ALIGN last as long as there is nothing to see, or it has only begun."""
+        """Leads an idle navigator into the state. SEARCH and ALIGN last while nothing is seen, or have only begun."""
         self.chain.call("abort")
         support.wait_for(lambda: self.chain.call("reset").success, "a reset")
         if state == "SEARCH":
@@ -389,7 +389,7 @@ PNG_OF_4E9_PIXELS = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR" + struct.pack(">II", 
 
 
 class Wall(support.Camera):
-    """Nothing but wall, never the same."""
+    """A wall without a window, different in each image."""
 
     def __init__(self):
         super().__init__(numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Simulated time that does not come, stands still, jumps back or ahead, while the vehicle is on its way; the monitor judges."""
+"""Simulated time that is missing, stands still, or jumps, while the vehicle is on its way; the monitor judges."""
 import sys
 import time
 import unittest
@@ -67,7 +67,7 @@ class ClockRowsTest(unittest.TestCase):
         self.chain.fly(self.monitor)
         begin = time.monotonic()
         camera = self.chain.streams["image_raw"]
-        camera.pause()  # or the first image of the new time may come before the navigator looks
+        camera.pause()  # otherwise the first image of the new time may precede the navigator's check
         self.clock.leap(950.0)
         self.watch(0.5)
         camera.resume()

@@ -1,4 +1,4 @@
-"""Import first: tests here share what the ROS tests share."""
+"""Import this first: these tests use the helpers of the ROS tests."""
 import pathlib
 import sys
 

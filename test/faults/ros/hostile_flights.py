@@ -45,7 +45,7 @@ def numbers_of(message):
 
 
 def spoil(message, generator):
-    """Garbage: some of its numbers are anything."""
+    """Garbage: replaces some of its numbers by arbitrary ones."""
     places = numbers_of(message)
     for owner, name in generator.sample(places, min(len(places), generator.randint(1, 4))):
         value = generator.choice((math.nan, math.inf, -1e30, 1e6, 0.0, generator.uniform(-10, 10)))
@@ -58,7 +58,7 @@ def spoil(message, generator):
 
 
 def lie(message, topic, stranger):
-    """A sound message that says something else: as if all were half a metre aside, or further, the same all the while."""
+    """A valid but wrong message: everything is moved half a metre aside or further, always by the same amount."""
     aside = stranger.aside_m
     if topic == "odom":
         message.pose.pose.position.y += aside
@@ -77,7 +77,7 @@ def lie(message, topic, stranger):
 
 
 class Stranger:
-    """Says on one topic, for a while, what he has made of the last true message."""
+    """Publishes changed copies of the latest true message on one topic for a while."""
 
     def __init__(self, steering):
         self.kinds = {**SENSING, **(STEERING if steering else {})}

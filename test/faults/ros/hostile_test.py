@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Arbitrary messages on all inputs at once, beside the true ones and instead of them; the oracles are on."""
+"""Arbitrary messages on all inputs at once, beside or instead of the true ones, judged by the oracles."""
 import sys
 import time
 import unittest
@@ -31,7 +31,7 @@ NOW = rospy.Time(1)
 
 
 def inputs():
-    """topic -> a sound message"""
+    """topic -> a valid message"""
     transforms = support.transforms_type()
     return {"image_raw": support.Camera(chain.window_image())(NOW), "camera_info": support.camera_info(NOW), "imu": support.imu(NOW), "odom": support.odometry(NOW),
             "window": detection(NOW), "window_pose": support.no_window(NOW), "engaged": Bool(True), "reference": ReferenceImage(),
@@ -62,7 +62,7 @@ class HostileTest(unittest.TestCase):
         cls.sent = 0
 
     def judge(self, begin):
-        """Strangers steer the guard, and say that they are the autopilot: O9 and O4 are not for the navigator to keep here."""
+        """Other publishers control the guard and claim to be the autopilot: O9 and O4 are not judged here."""
         found = [v for v in self.monitor.violations(begin) if v.oracle in ("O1", "O2", "O3", "O7")]
         self.assertEqual(found, [])
 
@@ -70,7 +70,7 @@ class HostileTest(unittest.TestCase):
         begin = time.monotonic()
         for i, (topic, message) in enumerate(messages):
             if hasattr(message, "header") and i % 2:
-                message.header.stamp = rospy.Time.now()  # otherwise nearly all are refused by their stamps alone
+                message.header.stamp = rospy.Time.now()  # otherwise the stamps alone would make nodes refuse nearly all
             self.publishers[topic].publish(message)
             type(self).sent += 1
         support.wait_for(lambda: time.monotonic() > begin + SECONDS_AN_EXAMPLE, "the nodes to have heard it")
@@ -96,7 +96,7 @@ class HostileTest(unittest.TestCase):
 
     def test_2_afterwards_all_is_as_before(self):
         self.chain.call("abort")
-        type(self).mounting = support.publish_mounting()  # tf2 keeps what /tf said of a static frame until it is said anew
+        type(self).mounting = support.publish_mounting()  # tf2 keeps a wrong static frame until it is published again
         begin = time.monotonic()
         self.chain.fly(self.monitor)
         self.judge(begin)

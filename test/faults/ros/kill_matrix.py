@@ -24,7 +24,7 @@ from own_system import OwnSystem
 SCENARIO = pathlib.Path(__file__).resolve().parents[1] / "world" / "kill.yaml"
 NODES = monitors.NODES
 STATES = ("SEARCH", "ALIGN", "APPROACH", "COMMIT", "HOLD", "BACK_OFF")
-RESPAWN_S = 5              # of all but the guard, which is back at once
+RESPAWN_S = 5              # of all nodes but the guard, which is restarted at once
 WATCH_S = 4.5              # after the kill: longer than the autopilot flies the last velocity on
 INTO_STATE_S, BACK_S = 180.0, 60.0
 NEAR_M = 2.0
@@ -63,7 +63,7 @@ class KillMatrix:
         support.wait_for(lambda: call("ingress_navigator/start").success, "a start", 30.0)
 
     def lead_into(self, state):
-        """A mission, until it is in the state, and fast where it will be."""
+        """Leads the mission into the state, at the speed that it has there."""
         self.take_off()
         begin = time.monotonic()
         if state in ("HOLD", "BACK_OFF"):
@@ -130,7 +130,7 @@ class KillMatrix:
         self.monitor.watch([node])
 
     def is_safe_again(self):
-        """A navigator that was started again moves nothing until it is asked."""
+        """A restarted navigator moves nothing until it is asked to."""
         begin = time.monotonic()
         support.wait_for(lambda: time.monotonic() > begin + 1.0, "a second")
         states = self.states.since(begin)

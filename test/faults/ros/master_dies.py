@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kills the ROS master in flight, and starts another one in its place: links that exist must not care."""
+"""Kills the ROS master in flight and starts another one in its place: existing connections must go on."""
 import os
 import subprocess
 import sys
@@ -24,7 +24,7 @@ def start_master(port):
 
 
 def flight(monitor, begin, seconds):
-    """\\return share of setpoints behind the guard that move"""
+    """\\return fraction of the guard's setpoints that move the vehicle"""
     support.wait_for(lambda: time.monotonic() > begin + seconds, "the time of the measurement")
     setpoints = [s for s in monitor.part(begin).setpoints if s.source == monitor.guard]
     return len(setpoints) / seconds, sum(not oracles.is_still(s) for s in setpoints) / max(1, len(setpoints))
@@ -68,4 +68,4 @@ def main():
 if __name__ == "__main__":
     code = main()
     sys.stdout.flush()
-    os._exit(code)  # rospy would wait for a master that does not know us
+    os._exit(code)  # rospy would wait for a master that does not know this node

@@ -1,4 +1,4 @@
-"""The oracles beside running nodes: hears what they publish, looks after their processes, and judges by oracles.py."""
+"""The oracles beside running nodes: records what nodes publish, watches their processes, and judges by oracles.py."""
 import math
 import threading
 import time
@@ -16,14 +16,14 @@ import support
 
 NODES = ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard")
 AWAKE_S = 0.02
-MARKERS_S = 0.5  # from one look at the numbers in markers to the next: they hold thousands
-LOOK_S = 0.25  # from one look at the processes to the next
+MARKERS_S = 0.5  # between two checks of the numbers in markers, which are thousands
+LOOK_S = 0.25  # between two checks of the processes
 MEGABYTE = 1024.0
 FLOATS = {"float32", "float64"}
 
 
 def numbers(message, path=""):
-    """(path, value) of every floating-point number in a message, however deep."""
+    """(path, value) of every floating-point number in a message, at any depth."""
     for name, kind in zip(message.__slots__, message._slot_types):
         value, here = getattr(message, name), f"{path}{name}"
         if kind in FLOATS:
@@ -54,7 +54,7 @@ def memory_and_threads(pid):
 
 
 class Monitor:
-    """Records from its making on. Topics can be renamed: {"cmd_vel": "guarded"}."""
+    """Records from its creation on. Topics can be renamed: {"cmd_vel": "guarded"}."""
 
     def __init__(self, nodes=NODES, topics=None, limits=None, heavy=True):
         self.limits = limits or oracles.Limits()
@@ -76,7 +76,7 @@ class Monitor:
         for work in (self._look, self._stay_awake):
             threading.Thread(target=work, daemon=True).start()
 
-    # --- what comes
+    # --- messages that arrive
 
     def _receive(self, message, name):
         at = time.monotonic()
@@ -97,7 +97,7 @@ class Monitor:
     def _compare(self, at, topic, source, stamp):
         before = self._stamps.get((topic, source), -math.inf)
         restarted = self.recording.restarts and at - self.recording.restarts[-1].at < 5.0
-        if stamp < before and not restarted and source not in self.expected_deaths:  # one that is back knows no /clock yet
+        if stamp < before and not restarted and source not in self.expected_deaths:  # a restarted node knows no /clock yet
             self.recording.stamps_back.append(oracles.StampBack(at, topic, before, stamp))
         self._stamps[topic, source] = stamp
 
@@ -139,7 +139,7 @@ class Monitor:
                 self._look_at(node, pid)
 
     def _stay_awake(self):
-        """Notes when this process itself was kept from looking: what came then is heard late."""
+        """Notes when this process itself did not run: it receives the messages of that time late."""
         before = time.monotonic()
         while not self._over.wait(AWAKE_S):
             now = time.monotonic()
@@ -157,7 +157,7 @@ class Monitor:
             elif self._pids.get(node) == pid and node not in [d.node for d in self.recording.deaths]:
                 self.recording.deaths.append(oracles.Death(at, node))
 
-    # --- judgement
+    # --- verdicts
 
     def clock_restarts(self):
         """Stamps may go back from now on, for five seconds."""
@@ -181,11 +181,11 @@ class Monitor:
             self.recording.forget_before(at)
 
     def names(self, begin, name, *words):
-        """Waits for the status that names the cause. \\return violations of O5"""
+        """Waits for the status that names the cause. Returns violations of O5."""
         return self._settled(lambda: oracles.O5(self.part(begin), self.limits, begin, name, words), begin)
 
     def recovers(self, begin, name):
-        """Waits for the status to be at ease again. \\return violations of O6"""
+        """Waits for the status to be OK again. Returns violations of O6."""
         return self._settled(lambda: oracles.O6(self.part(begin), self.limits, begin, name), begin)
 
     def _settled(self, judge, begin):
@@ -195,7 +195,7 @@ class Monitor:
         return judge()
 
     def stops(self, begin, watch_s=1.0):
-        """Waits, then judges whether all setpoints are zero from 0.3 s after `begin` on. \\return violations of O4"""
+        """Waits, then judges whether all setpoints are zero from 0.3 s after `begin` on. Returns violations of O4."""
         end = begin + self.limits.stop_within_s + watch_s
         support.wait_for(lambda: time.monotonic() > end, "the time of the measurement")
         return oracles.O4_stop(self.part(begin, end), self.limits, begin, end)

@@ -43,7 +43,7 @@ GUARD_SHIPPED = yaml.safe_load((CONFIG / "guard.yaml").read_text())
 
 @dataclasses.dataclass
 class Limits:
-    """What the oracles allow. Those of motion are those that are shipped."""
+    """Limits of the oracles. Those of motion are the shipped parameters."""
     speed_mps: float = SHIPPED["speed_mps"]
     guard_speed_mps: float = GUARD_SHIPPED["max_speed_mps"]
     yaw_rate_radps: float = SHIPPED["yaw_rate_radps"]
@@ -62,7 +62,7 @@ class Limits:
 
 @dataclasses.dataclass
 class Recording:
-    """What was seen, each list in order of time."""
+    """Everything recorded, each list in order of time."""
     setpoints: typing.List[Setpoint] = dataclasses.field(default_factory=list)
     states: typing.List[State] = dataclasses.field(default_factory=list)
     engaged: typing.List[Engaged] = dataclasses.field(default_factory=list)
@@ -76,7 +76,7 @@ class Recording:
     blind: typing.List[Blind] = dataclasses.field(default_factory=list)
 
     def between(self, begin, end):
-        """What was said of permissions a little before holds on, and is kept."""
+        """Recording of this time span. Permissions given before it still hold, and are kept."""
         before = {"states": CONTEXT_S, "engaged": CONTEXT_S}
         parts = {field.name: slice_of(getattr(self, field.name), begin - before.get(field.name, 0.0), end)
                  for field in dataclasses.fields(self)}
@@ -102,7 +102,7 @@ def norm(vector):
 
 
 def O1(recording, expected=()):
-    """\\param expected nodes that the test itself ends"""
+    """Parameter `expected`: nodes that the test itself ends."""
     return [Violation("O1", d.at, f"process of {d.node} is gone") for d in recording.deaths if d.node not in expected]
 
 
@@ -129,7 +129,7 @@ def O3(recording, limits, guard):
 
 
 def too_sudden(setpoints, limits):
-    """More velocity than the acceleration allows, in the direction flown then: to take it away at once is allowed."""
+    """Increase of the velocity beyond the permitted acceleration, in its direction. Decreases may be sudden."""
     found = []
     for one, two in zip(setpoints, setpoints[1:]):
         passed = min(0.2, max(0.0, two.stamp - one.stamp))
@@ -143,7 +143,7 @@ def too_sudden(setpoints, limits):
 
 
 def O4_stop(recording, limits, lost_at, until):
-    """Zeros, and some of them, from `stop_within_s` after the loss on."""
+    """Only zeros, and at least some, from `stop_within_s` after the loss on."""
     begin = lost_at + limits.stop_within_s + limits.machine_s
     after = slice_of(recording.setpoints, begin, until)
     moving = [s for s in after if not is_still(s) and not was_blind(recording, s.at, limits)]
@@ -154,13 +154,13 @@ def O4_stop(recording, limits, lost_at, until):
 
 
 def stop_time(recording, lost_at, until):
-    """From the loss to the last setpoint that moves; None if none moved."""
+    """Time from the loss to the last setpoint that moves; None if none moved."""
     moving = [s.at for s in slice_of(recording.setpoints, lost_at, until) if not is_still(s)]
     return moving[-1] - lost_at if moving else None
 
 
 def O4_stream(recording, limits, source, begin, end):
-    """At any time within [begin, end] at least `least_rate_hz`, over a window."""
+    """At least `least_rate_hz` within any window of [begin, end]."""
     rate, at = stream_rate(recording, limits, source, begin, end)
     if rate >= limits.least_rate_hz:
         return []
@@ -201,12 +201,12 @@ def spans_of(states, end):
 
 
 def was_blind(recording, at, limits):
-    """What was heard then may have come before."""
+    """True if messages received then may be older."""
     return any(b.at - b.seconds <= at <= b.at + limits.machine_s for b in recording.blind)
 
 
 def O5(recording, limits, caused_at, name, words):
-    """The status `name` holds all the words, and is not at ease, within the time."""
+    """The status `name` contains all the words, and is not OK, within the time."""
     said = [s for s in recording.said if s.at >= caused_at and s.name == name]
     fitting = [s for s in said if s.level != OK and all(word in s.text for word in words)]
     if fitting and fitting[0].at - caused_at <= limits.named_within_s + limits.machine_s:
@@ -216,7 +216,7 @@ def O5(recording, limits, caused_at, name, words):
 
 
 def O6(recording, limits, ended_at, name):
-    """The status is at ease again, within the time, after the fault has ended."""
+    """The status is OK again within the time after the end of the fault."""
     if any(s.at >= ended_at and s.name == name and s.level == OK and
            s.at - ended_at <= limits.named_within_s + limits.machine_s for s in recording.said):
         return []
@@ -245,13 +245,13 @@ def median(values):
 
 
 def O8(one, other):
-    """Two mappings, equal to the bit."""
+    """Two mappings must be equal to the bit."""
     differing = sorted(key for key in set(one) | set(other) if one.get(key) != other.get(key))
     return [Violation("O8", 0.0, f"{len(differing)} differ, first at {differing[0]}")] if differing else []
 
 
 def O9(recording, limits):
-    """Setpoints that move the vehicle while the navigator says that it streams none, or nobody follows."""
+    """Setpoints that move the vehicle while the navigator says that it does not stream, or nobody follows them."""
     found = []
     states, engaged = [s.at for s in recording.states], [e.at for e in recording.engaged]
     for setpoint in recording.setpoints:
@@ -265,12 +265,12 @@ def O9(recording, limits):
 
 
 def disobeyed(faults):
-    """Whether the vehicle did not do as it was told: nobody aboard can answer for what it touches then."""
+    """True if the vehicle did not follow its setpoints: then no node can prevent a contact."""
     return any(fault.startswith(DISOBEYS) for fault in faults)
 
 
 def contact(at, outcome, faults):
-    """At a flight's end: nothing was touched, whatever faults it had."""
+    """At the end of a flight: nothing was touched, whatever the faults."""
     if outcome not in TOUCHED or disobeyed(faults):
         return []
     return [Violation("contact", at, outcome)]

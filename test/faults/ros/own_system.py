@@ -1,4 +1,4 @@
-"""A ROS system of one's own: a master on a free port and one launch file, ended with the program."""
+"""A separate ROS system: a master on a free port and one launch file, ended with the program."""
 import os
 import signal
 import socket
@@ -17,7 +17,7 @@ def free_port():
 
 
 class OwnSystem:
-    """`with OwnSystem("sim.launch", "seed:=3"):` - everything in it is heard by this process alone, over loopback."""
+    """`with OwnSystem("sim.launch", "seed:=3"):` - only this process hears it, over loopback."""
 
     def __init__(self, launch_file, *arguments, package="window_ingress", prefix=()):
         self._port = free_port()

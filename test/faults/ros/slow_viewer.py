@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node: somebody who looks at everything and is too slow for it, like rviz on a weak machine. Each message takes a second."""
+"""Node: a viewer that subscribes to everything and is too slow, like rviz on a weak computer. Each message takes a second."""
 import time
 
 import rospy

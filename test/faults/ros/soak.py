@@ -34,9 +34,9 @@ KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "inter
          "clock": ("off", "stuck", "wrong", "slow", "delayed", "intermittent"),
          "cmd_vel": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent")}
 TOPICS = {"steered": "/ingress_navigator/cmd_vel"}
-MISSION_S, START_S = 200.0, 60.0 # wall time of a mission, and until one may start
-LAST_WORD_S = 5.0                # the referee's comes once a second of simulated time
-WARM_FLIGHTS = 3                 # memory is measured from then on: caches and pools are full
+MISSION_S, START_S = 200.0, 60.0 # wall time of a mission, and until it may start
+LAST_WORD_S = 5.0                # the referee's verdict comes once a second of simulated time
+WARM_FLIGHTS = 3                 # memory is measured after these: caches and pools are full
 GROWTH_MB = 20.0                 # per process, from then to the end
 
 
@@ -68,7 +68,7 @@ class Soak:
         self.began = time.monotonic()
 
     def prepare(self):
-        """Everything as before the first flight; what was injected ends with the world's reset."""
+        """Restores the state before the first flight; the world's reset ends injected faults."""
         support.call("ingress_navigator/abort")
         support.call("world/reset")
         support.wait_for(lambda: support.call("ingress_navigator/reset").success, "the navigator can be reset")

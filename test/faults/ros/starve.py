@@ -23,12 +23,12 @@ import support
 
 SCALE, RATE_HZ = 6, 200.0
 LAUNCH = str(fault_paths.HERE / "starve.launch.xml")
-GROWTH_MB = 120.0   # an image has 11 MB, and a few are held at a time
+GROWTH_MB = 120.0   # an image takes 11 MB, and a few are held at once
 SETTLE_S = 5.0
 
 
 def images():
-    """This process publishes as fast as it is allowed to, and says how many."""
+    """This process publishes as fast as possible and counts the images."""
     rospy.init_node("flood")
     pixels = cv2.resize(cv2.cvtColor(chain.window_image(), cv2.COLOR_BGR2GRAY), None, fx=SCALE, fy=SCALE)
     message = Image(height=pixels.shape[0], width=pixels.shape[1], encoding="mono8", step=pixels.shape[1], data=pixels.tobytes())
@@ -76,7 +76,7 @@ class Starvation:
     def run(self):
         self.starve()
         try:
-            self.chain.fly(self.monitor)  # streams, be it on its way or in IDLE
+            self.chain.fly(self.monitor)  # streams setpoints, on its way or in IDLE
         except AssertionError:
             print("not on its way: the images come too late to fly by", file=sys.stderr)
         support.wait_for(lambda: time.monotonic() > self.begun + SETTLE_S, "everything to have settled")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is around the nodes: parameters, disk, nodelet manager, master, bag files."""
+"""The environment of the nodes: parameters, disk, nodelet manager, master, bag files."""
 import os
 import pathlib
 import random
@@ -20,7 +20,7 @@ from roslib.packages import find_node
 import support
 
 NAN = float("nan")
-FLIPS = 4  # bags with flipped bytes
+FLIPS = 4  # bags with corrupted bytes
 
 
 def program(name):
@@ -67,7 +67,7 @@ class SurroundingsTest(unittest.TestCase):
         note("M85", done.stderr.strip().splitlines()[-1])
 
     def test_M88_no_place_to_write_to(self):
-        """Home and logs below a file, so that nobody can make them; standard output full."""
+        """Home and logs lie below a file, so that they cannot be created; standard output is full."""
         rospy.set_param("/guard_without_disk/frame", "odom")
         with open("/dev/full", "w", encoding="utf-8") as full:
             process = subprocess.Popen([program("setpoint_guard"), "__name:=guard_without_disk"], stdout=full, stderr=subprocess.PIPE,
@@ -91,7 +91,7 @@ class SurroundingsTest(unittest.TestCase):
         try:
             rospy.wait_for_service("/nodelets/load_nodelet", 20.0)
             rospy.set_param("/bad/detector", {"min_score": "high"})
-            self.load("bad")  # stays, without a node, until it is unloaded
+            self.load("bad")  # remains, without a node, until it is unloaded
             self.assertIsNone(manager.poll(), "the manager lives")
         finally:
             os.killpg(manager.pid, signal.SIGTERM)

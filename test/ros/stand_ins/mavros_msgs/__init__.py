@@ -1,1 +1,1 @@
-"""What tests need of MAVROS's messages, which may not be installed."""
+"""The parts of MAVROS's messages that tests need; MAVROS may not be installed."""

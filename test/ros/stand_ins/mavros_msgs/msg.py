@@ -1,4 +1,4 @@
-"""CompanionProcessStatus as MAVROS has it, cut down to the constants that are used."""
+"""MAVROS's CompanionProcessStatus, reduced to the constants that are used."""
 from genpy.dynamic import generate_dynamic
 from std_msgs.msg import Header
 
