@@ -1,4 +1,4 @@
-"""Tests of the fault matrix say here what they have seen; dev/fault_matrix shows it."""
+"""Tests of the fault matrix record their observations here; dev/fault_matrix shows them."""
 import json
 import os
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""doctor about nodes in the wrong surroundings: a topic of another type, a camera frame that is none, nobody who takes the
-setpoints, no reference image."""
+"""doctor on nodes with wrong inputs: a topic of another type, an invalid camera frame, no subscriber to the setpoints,
+no reference image."""
 import sys
 import unittest
 

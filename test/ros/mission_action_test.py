@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The mission as an action: the conditions of ~start, feedback, a result with its cause, zero first when it is cancelled in
-whatever state; and ~enable."""
+"""The mission as an action: the conditions of ~start, feedback, a result with its cause, a zero first when it is cancelled in
+any state; and ~enable."""
 import os
 import pathlib
 import re

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 """One recorded flight through the nodes, through replay and through the closed loop's perception: the same to the byte.
 
-The closed loop flies it and records it. Its bag is then played to window_detector and homography_pose, which work in
-lockstep; one_flight.cpp gives it to replay, and to the object by which the closed loop sees (`FlightPerception`), and
-writes of both what the nodes would have published. Compared are all bytes of WindowDetection and WindowPose, image by
-image: corners, edges and their covariances, the other windows, texture within the opening, poses, the filter, what the
-memory of all windows expects, the verdict on the opening, checks.
+The closed loop flies and records the flight. Its bag is then played to window_detector and homography_pose, which work in
+lockstep. one_flight.cpp gives the bag to replay and to the closed loop's perception (`FlightPerception`), and writes for
+both what the nodes would have published. All bytes of WindowDetection and WindowPose are compared, image by image:
+corners, edges and their covariances, the other windows, texture within the opening, poses, the filter, the expectations
+of the façade memory, the verdict on the opening, checks.
 
 Of the nodes' openness only the verdict is compared: depth behind the opening and its deviation differ from replay's by
-2e-6 and 1e-5 of them, and the cause has not been found. Replay and closed loop are compared in all.
+relative errors of 2e-6 and 1e-5, and the cause has not been found. Replay and closed loop are compared completely.
 
-Not compared: `milliseconds`, the time that an image took, and `seq`, which is a count of the transport. Nor the closed
-loop while it flies: it sees images before they are compressed, and numbers before they are rounded to a stamp's
-nanoseconds and to a quaternion. Nor what a navigator or an operator says to the memory of all windows: nobody does.
-Nor nodes on a clock of their own, which may leave out images that come too fast.
+Not compared:
+- `milliseconds`, the processing time, and `seq`, a counter of the transport
+- the closed loop in flight: it sees images before compression, and numbers before they are rounded to a stamp's
+  nanoseconds and to a quaternion
+- messages of a navigator or an operator to the façade memory: there are none
+- nodes on a clock of their own, which may leave out images that come too fast
 """
 import io
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whatever is the matter with an input or an output is said on /diagnostics within two seconds, in one line that names the
-topic, and no longer once it is mended."""
+"""/diagnostics reports every fault of an input or an output within two seconds, in one line that names the topic, until the
+fault ends."""
 import os
 import re
 import subprocess

@@ -1,7 +1,7 @@
-"""Writes a bag as a camera on a standing vehicle records it: usage write_camera_bag.py FILE.bag [WORD...]
+"""Writes a bag of a camera on a standing vehicle: usage write_camera_bag.py FILE.bag [WORD...]
 
 raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
-window_pose and setpoints of the flight, which nobody should take for new ones).
+window_pose and setpoints of the flight, which must not count as new ones).
 """
 import pathlib
 import sys

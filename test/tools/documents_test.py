@@ -203,7 +203,7 @@ def test_printed_parameter_files_can_be_given(document, text, tmp_path):
 
 
 def checked_elsewhere(command, _):
-    """What builds, tests or measures everything: here only that it can be read. scripts/test is, runs demo and
+    """Checks only the syntax of scripts that build, test or measure everything. scripts/test runs demo and
     check_install; bench, build_deb and check_deb take long and are run by hand."""
     done = call("bash", "-n", command.split()[0], cwd=ROOT)
     assert done.returncode == 0, done.stderr

@@ -1,5 +1,5 @@
-"""The recorded flight before the kiosk: an open window, a poster, a pane of glass. Each is followed in turn, the others painted over
-where the truth says that they are."""
+"""The recorded flight in front of the kiosk: an open window, a poster, a pane of glass. Each is tracked in turn, and the others are
+painted over at their true places."""
 import cv2
 import numpy as np
 import pytest

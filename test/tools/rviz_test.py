@@ -1,5 +1,5 @@
-"""view.launch in rviz itself, without a screen: it loads all of the configuration and asks for the right topics. Needs rviz and
-Xvfb (package xvfb); skipped where they are not installed."""
+"""view.launch in rviz itself, without a screen: it loads the whole configuration and subscribes to the right topics. Needs rviz
+and Xvfb (package xvfb); skipped if they are not installed."""
 import os
 import shutil
 import signal

@@ -19,8 +19,8 @@ def system(name, number):
 
 @pytest.fixture(name="setup")
 def fixture_setup(tmp_path):
-    """Calls it on a system where nothing is installed, or all but what is `missing`, and packages named in `absent` do not exist:
-    (done, what it installed)."""
+    """Calls scripts/setup on a system where nothing is installed, or everything but `missing`, and packages in `absent` do not
+    exist. Returns (done, the packages that it installed)."""
     def install(os_release, *more, absent=(), missing=None):
         query = "exit 1" if missing is None else f'case " {" ".join(missing)} " in *" ${{!#}} "*) exit 1 ;; *) echo -n installed ;; esac'
         tools = {"dpkg-query": query, "id": "echo 0", "apt-get": f'echo "$@" >>{tmp_path}/apt',

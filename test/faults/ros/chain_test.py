@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Rows of faults in what the nodes hear, one after another, while the vehicle is on its way towards the window.
+"""Rows of faults in the inputs of the nodes, one after another, while the vehicle is on its way towards the window.
 
-Each row: on its way - the fault begins - its cause is named, and where it says so the vehicle stands - the fault ends - at ease
-and on its way again. The monitor judges all the time.
+Each row: the vehicle is on its way - the fault begins - a status names its cause, and the vehicle stops if the row says so - the
+fault ends - the status is OK and the vehicle is on its way again. The monitor judges all the time.
 """
 import collections
 import itertools

@@ -1,4 +1,4 @@
-"""The nine oracles that every fault row is judged by, as functions over a recording; nothing here knows ROS.
+"""The nine oracles that judge every fault row, as functions over a recording, without ROS.
 
 O1 no process dies  O2 numbers finite, stamps never back  O3 speed, yaw rate and acceleration within limits
 O4 zero setpoint 0.3 s after pose or odometry is lost, stream never below 10 Hz while enabled
@@ -6,7 +6,7 @@ O5 the cause is named in the diagnostics within 2 s  O6 recovers when the fault 
 O7 memory flat, threads and time of an image bounded  O8 the same input twice gives the same output
 O9 no motion when not enabled, or when the autopilot does not follow
 
-Times are seconds of the steady clock of the machine, those named stamp are of the messages.
+Times are seconds of the machine's steady clock; those named stamp come from the messages.
 """
 import bisect
 import collections
