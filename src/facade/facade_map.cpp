@@ -91,6 +91,25 @@ void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) co
   }
 }
 
+// In a full map new windows take the place of those not seen for longest, never of one that was flown at.
+void FacadeMap::makeRoom(const std::vector<Sight>& sights, std::uint32_t kept) {
+  const auto is_new = [](const Sight& sight) { return sight.key == 0; };
+  const auto wanted = static_cast<std::size_t>(std::count_if(sights.begin(), sights.end(), is_new));
+  const auto is_needed = [&](const KnownWindow& window) {
+    const auto shows = [&](const Sight& sight) { return sight.key == window.key; };
+    return (kept != 0 && window.id == kept) || window.visits > 0 || window.failures > 0 ||
+           std::any_of(sights.begin(), sights.end(), shows);
+  };
+  while (windows_.size() + wanted > kMaxWindows) {
+    auto oldest = windows_.end();
+    for (auto window = windows_.begin(); window != windows_.end(); ++window)
+      if (!is_needed(*window) && (oldest == windows_.end() || window->last_seen_sec < oldest->last_seen_sec))
+        oldest = window;
+    if (oldest == windows_.end()) return;
+    windows_.erase(oldest);
+  }
+}
+
 void FacadeMap::learn(double stamp_sec, Sight& sight) {
   KnownWindow* window = withNumber(windows_, &KnownWindow::key, sight.key);
   if (window == nullptr) {
@@ -160,6 +179,14 @@ void FacadeMap::prune(const FacadeView& view, bool knows_wall, std::uint32_t kep
   windows_.erase(std::remove_if(windows_.begin(), windows_.end(), is_stale), windows_.end());
 }
 
+void FacadeMap::forgetNeighbours() {
+  const auto is_known = [&](std::uint32_t key) {
+    return withNumber(windows_, &KnownWindow::key, key) != nullptr;
+  };
+  for (auto pair = apart_.begin(); pair != apart_.end();)
+    pair = is_known(pair->first) && is_known(pair->second) ? std::next(pair) : apart_.erase(pair);
+}
+
 void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
                     const geometry::OpeningSize& looked_for, std::uint32_t kept) {
   const auto is_too_small = [&](const WindowPlace& place) {
@@ -172,10 +199,12 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
       sights.push_back({&seen, *place});
   followed_key_ = 0;
   associate(view, sights);
+  makeRoom(sights, kept);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
   merge(kept);
   prune(view, wall.has_value(), kept);
+  forgetNeighbours();
 }
 
 void FacadeMap::correct(std::uint32_t id, const WindowPlace& place) {

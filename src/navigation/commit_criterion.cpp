@@ -14,7 +14,8 @@ namespace {
 
 // Fitted: measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
-constexpr double kGustSec = 3.0;       // time scale of gusts: a short measurement may miss the strongest
+constexpr double kGustSec = 3.0;  // time scale of gusts: a short measurement may miss the strongest
+constexpr double kLeastWatchedSec = 0.01;
 constexpr double kPartCarried = 0.73;  // fraction of the distance until a gust is answered and corrected
 constexpr double kMaxHeadingErrorRad = 0.2;  // heading against the window's normal
 constexpr double kMaxAcrossMps = 0.3;        // velocity across the window's normal at the commit line
@@ -85,8 +86,8 @@ double missByOdometry(double odometry_mps, const NavigatorParams& params) {
 /// How far gusts carry the vehicle off the axis. The gusts measured in calm air are noise: they move no
 /// vehicle, and hide real gusts of the same size.
 double carriedM(double gust_mps, double watched_sec, const NavigatorParams& params) {
-  const double beyond_calm_mps =
-      std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps) * (1.0 + kGustSec / watched_sec));
+  const double beyond_calm_mps = std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps) *
+                                           (1.0 + kGustSec / std::max(watched_sec, kLeastWatchedSec)));
   return kPartCarried * carriedSec(params) * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "window_ingress/geometry/lens_model.hpp"
 #include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
@@ -41,20 +42,10 @@ int integer(const YAML::Node& root, const std::string& key, const std::string& f
 void readLens(const YAML::Node& root, const std::string& file, geometry::PinholeCamera& camera) {
   if (!root["distortion_coefficients"]) return;
   const auto distortion = numbers(root, "distortion_coefficients", file);
-  const bool straight = std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; });
   const std::string model =
       root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
-  const bool fisheye = model == "equidistant" || model == "fisheye";  // two names of one model
-  if (straight && !fisheye) return;
-  if (!fisheye && model != "plumb_bob")
-    refuse(file, "distortion_model: '" + model +
-                     "' is not supported; calibrate with plumb_bob or equidistant, or rectify the images");
-  const std::size_t count = distortion.size();
-  if (count != 4 && (fisheye || count != 5))
-    refuse(file, "distortion_coefficients: " + std::to_string(count) + " numbers; " + model +
-                     (fisheye ? " has 4" : " has 5"));
-  if (fisheye) camera.model = geometry::LensModel::kEquidistant;
-  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  const std::string why = geometry::setLens(model, distortion, camera);
+  if (!why.empty()) refuse(file, "distortion_coefficients: " + why);
 }
 
 }  // namespace

@@ -231,14 +231,15 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
     tools::checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
   const bool by_argument = !given(o.window_size).empty();
-  if (!by_argument) tools::checkBothSides(overlay);
   if (asksForSizes(o))
     faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
+  else if (!by_argument)
+    tools::checkBothSides(overlay);
   if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
     tools::checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
-  const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/", {"half_width_m"}) ||
-                                                         tools::says(overlay, "vehicle/", {"half_height_m"}));
+  const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/half_width_m") ||
+                                                         tools::says(overlay, "vehicle/half_height_m"));
   if (o.fly == "true" || (o.fly.empty() && says_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }

@@ -11,20 +11,35 @@
 #include "evaluation/flights/told_sizes.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
 inline void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
-inline bool says(const configuration::Overlay& overlay, const std::string& group,
-                 const std::vector<const char*>& keys) {
-  return std::all_of(keys.begin(), keys.end(),
-                     [&](const char* key) { return overlay.said.count(group + key) != 0; });
+const std::vector<const char*> kOpening = {"homography_pose/pose/opening_width_m",
+                                           "homography_pose/pose/opening_height_m"};
+const std::vector<const char*> kBody = {"vehicle/half_length_m", "vehicle/half_width_m",
+                                        "vehicle/half_height_m"};
+
+inline bool says(const configuration::Overlay& overlay, const char* key) {
+  return overlay.said.count(key) != 0;
 }
 
 inline bool saysOpening(const configuration::Overlay& overlay) {
-  return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
+  return says(overlay, kOpening[0]) && says(overlay, kOpening[1]);
+}
+
+/// What is missing of a size: `whole`, or the names of some of its keys; empty if nothing is.
+inline std::string missing(const configuration::Overlay& overlay, const std::vector<const char*>& keys,
+                           const char* whole) {
+  std::vector<std::string> names;
+  for (const char* key : keys)
+    if (!says(overlay, key)) names.emplace_back(key);
+  if (names.empty()) return "";
+  return names.size() == keys.size() ? std::string(whole) + " is missing"
+                                     : parameters::joined(names) + " is missing";
 }
 
 // A drone must not fly with the default window's size.
@@ -32,33 +47,32 @@ inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& o
   const auto& pose = overlay.homography_pose.pose;
   const bool is_found_out = pose.scale_sigma > 0.0;  // measured in flight
   if (is_found_out || by_argument || saysOpening(overlay)) return;
-  const std::string said =
-      "the opening's size is missing: measure it and give window_size:=W,H [m], or in the file of config:= "
-      "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
+  const std::string said = missing(overlay, kOpening, "the opening's size") +
+                           ": measure it and give window_size:=W,H [m], or in the file of config:= "
+                           "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
   if (is_refused) throw InputError(said);
   warn(said + formatted("; assuming %g x %g m", pose.opening_width_m, pose.opening_height_m));
 }
 
 // A side that is not given keeps the default window's value.
 inline void checkBothSides(const configuration::Overlay& overlay) {
-  const bool width = says(overlay, "homography_pose/pose/", {"opening_width_m"});
-  const bool height = says(overlay, "homography_pose/pose/", {"opening_height_m"});
+  const bool width = says(overlay, kOpening[0]), height = says(overlay, kOpening[1]);
   if (width == height) return;
   const auto& pose = overlay.homography_pose.pose;
-  warn(formatted("only one side of the opening is given: homography_pose/pose/%s is missing, assuming %g m",
-                 width ? "opening_height_m" : "opening_width_m",
+  warn(formatted("only one side of the opening is given: %s is missing, assuming %g m", kOpening[width],
                  width ? pose.opening_height_m : pose.opening_width_m));
 }
 
 // A drone must not fly with the default vehicle's size either.
 inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
-  if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
+  const std::string what = missing(overlay, kBody, "the vehicle's size");
+  if (what.empty()) return;
   const auto& vehicle = overlay.vehicle;
-  warn(
-      formatted("the vehicle's size is missing: assuming %g x %g x %g m; measure it, propellers included, "
-                "and give in the file of config:= vehicle: "
-                "{half_length_m: L, half_width_m: W, half_height_m: H}",
-                2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
+  warn(what + formatted(": assuming %g x %g x %g m; measure it, propellers included, "
+                        "and give in the file of config:= vehicle: "
+                        "{half_length_m: L, half_width_m: W, half_height_m: H}",
+                        2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m,
+                        2.0 * vehicle.half_height_m));
 }
 
 /// What flies in the simulated world: the sizes of the parameter file, else the world's.

@@ -183,6 +183,14 @@ def test_the_simulated_world_is_flown_by_the_sizes_of_its_scenario_unless_the_us
     assert sizes(f"config:={config}") == [0.7, 0.45, 0.2, 0.22, 0.07]
 
 
+def test_what_is_missing_of_a_size_is_named(tmp_path):
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle: {half_length_m: 0.3, half_width_m: 0.3}\nhomography_pose: {pose: {opening_width_m: 1.3}}\n")
+    said = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch", f"config:={config}").stderr
+    assert "vehicle/half_height_m is missing: assuming 0.6 x 0.6 x 0.24 m" in said
+    assert "homography_pose/pose/opening_height_m is missing: measure it" in said and "size is missing" not in said
+
+
 @pytest.mark.parametrize("text, is_said", [
     ("{}", False), ("vehicle: {half_width_m: 0.3}", False), ("homography_pose: {pose: {opening_width_m: 1.3}}", False),
     ("homography_pose: {odom_wait_sec: 0.1}", False), ("homography_pose: {pose: {scale_sigma: 0.0}}", False),
@@ -192,7 +200,7 @@ def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said
     config = tmp_path / "drone.yaml"
     config.write_text(text)
     done = run("check_overlay", config, "--needs-window-size", "true")
-    assert done.returncode == (0 if is_said else 2) and ("the opening's size is missing" in done.stderr) != is_said, done.stderr
+    assert done.returncode == (0 if is_said else 2) and (" is missing: measure it and give window_size" in done.stderr) != is_said, done.stderr
     for arguments in (("--needs-window-size", "true", "--window-size", "1.3,1.1"), ("--needs-window-size", "false")):
         assert run("check_overlay", config, *arguments).returncode == 0
 
@@ -203,7 +211,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
     launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
     done = run("roslaunch", "--nodes", *launch)
     width = 2 * vehicle.get("half_width_m", 0.25)
-    assert done.returncode == 0 and f"the vehicle's size is missing: assuming 0.5 x {width:g} x " in done.stderr
+    assert done.returncode == 0 and f" is missing: assuming 0.5 x {width:g} x " in done.stderr
     done = run("roslaunch", "--nodes", *launch, "fly:=false")
     assert done.returncode == 0 and "warning: no reference image" in done.stderr
 

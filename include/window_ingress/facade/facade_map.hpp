@@ -75,11 +75,13 @@ class FacadeMap {
     std::uint32_t key = 0;  ///< of the assigned window
   };
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
+  void makeRoom(const std::vector<Sight>& sights, std::uint32_t kept);
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
   void merge(std::uint32_t kept);
   void passOnNeighbours(std::uint32_t younger, std::uint32_t older);
   void prune(const FacadeView& view, bool knows_wall, std::uint32_t kept);
+  void forgetNeighbours();  ///< pairs of which one window is forgotten
   double squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const;
 
   FacadeParams params_;

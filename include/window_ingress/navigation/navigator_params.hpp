@@ -98,7 +98,7 @@ struct AlignParams {
     field("vertical_speed_mps", self.vertical_speed_mps, 0.05, 5.0);
     field("yaw_gain_hz", self.yaw_gain_hz, 0.1, 10.0);
     field("min_distance_m", self.min_distance_m, 0.5, 20.0);
-    field("probe_amplitude_m", self.probe_amplitude_m, 0.05, 2.0);
+    field("probe_amplitude_m", self.probe_amplitude_m, 0.1, 2.0);
     field("max_probes", self.max_probes, 0, 20);
     field("step_m", self.step_m, 0.05, 2.0);
     field("step_pause_sec", self.step_pause_sec, 0.0, 10.0);

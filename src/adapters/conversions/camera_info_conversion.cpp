@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "window_ingress/geometry/lens_model.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -12,11 +13,6 @@ using geometry::PinholeCamera;
 
 constexpr std::uint32_t kLargestSidePx = 20000;
 constexpr std::uint32_t kMaxBinning = 16;
-constexpr const char* kPlumbBob = "plumb_bob";
-constexpr const char* kRational = "rational_polynomial";
-constexpr const char* kEquidistant = "equidistant";
-
-bool isFisheye(const std::string& model) { return model == kEquidistant || model == "fisheye"; }
 
 template <typename Array>
 bool finite(const Array& numbers) {
@@ -40,28 +36,6 @@ std::string badNumbers(const sensor_msgs::CameraInfo& m) {
     return "R is zero, which is not a rotation, although P is set; set R to the identity if nothing is "
            "rectified";
   if (zero(m.K)) return "uncalibrated: K is zero; calibrate the camera or load its calibration in the driver";
-  return "";
-}
-
-std::size_t coefficientsOf(const std::string& model) {
-  return model == kPlumbBob ? 5 : model == kRational ? 8 : isFisheye(model) ? 4 : 0;
-}
-
-std::string badDistortion(const sensor_msgs::CameraInfo& m) {
-  const bool undistorted = m.D.empty() || (m.D.size() == 5 && zero(m.D));
-  if (undistorted && m.distortion_model.empty()) return "";
-  const std::size_t wanted = coefficientsOf(m.distortion_model);
-  if (wanted == 0)
-    return "distortion model '" + m.distortion_model.substr(0, 40) +
-           "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
-           "use rectified images (image_proc) and set vehicle/image_is_rectified";
-  if (m.D.empty() && !isFisheye(m.distortion_model)) return "";
-  if (m.D.size() != wanted)
-    return formatted("D holds %zu numbers, %s has %zu", m.D.size(), m.distortion_model.c_str(), wanted);
-  if (m.distortion_model == kRational &&
-      std::any_of(m.D.begin() + 5, m.D.end(), [](double d) { return d != 0.0; }))
-    return "distortion model rational_polynomial is supported with k4 = k5 = k6 = 0 only; calibrate with "
-           "plumb_bob";
   return "";
 }
 
@@ -89,7 +63,7 @@ std::string whyRefused(const sensor_msgs::CameraInfo& m, bool rectified) {
   for (const std::string& fault :
        {badSize(m), badNumbers(m), badRegion(m, rectified), badProjection(m, rectified)})
     if (!fault.empty()) return fault;
-  return rectified ? "" : badDistortion(m);
+  return "";
 }
 
 PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
@@ -100,9 +74,6 @@ PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
   camera.fy = rectified ? m.P[5] : m.K[4];
   camera.cx = rectified ? m.P[2] : m.K[2];
   camera.cy = rectified ? m.P[6] : m.K[5];
-  if (!rectified && isFisheye(m.distortion_model)) camera.model = geometry::LensModel::kEquidistant;
-  const std::size_t known = rectified ? 0 : std::min(m.D.size(), camera.distortion.size());
-  std::copy(m.D.begin(), m.D.begin() + static_cast<std::ptrdiff_t>(known), camera.distortion.begin());
   return camera;
 }
 
@@ -124,9 +95,11 @@ void cropAndBin(PinholeCamera& camera, const sensor_msgs::CameraInfo& m) {
 }  // namespace
 
 Converted<PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified) {
-  const std::string reason = whyRefused(message, rectified);
+  std::string reason = whyRefused(message, rectified);
   if (!reason.empty()) return {std::nullopt, reason};
   PinholeCamera camera = fullCamera(message, rectified);
+  if (!rectified) reason = geometry::setLens(message.distortion_model, message.D, camera);
+  if (!reason.empty()) return {std::nullopt, reason};
   cropAndBin(camera, message);
   const std::vector<std::string> faults = camera.validate();
   if (!faults.empty()) return {std::nullopt, faults.front()};
@@ -138,7 +111,7 @@ sensor_msgs::CameraInfo toMsg(const PinholeCamera& camera) {
   message.width = static_cast<std::uint32_t>(camera.width);
   message.height = static_cast<std::uint32_t>(camera.height);
   const bool fisheye = camera.model == geometry::LensModel::kEquidistant;
-  message.distortion_model = fisheye ? kEquidistant : kPlumbBob;
+  message.distortion_model = fisheye ? "equidistant" : "plumb_bob";
   message.D.assign(camera.distortion.begin(), camera.distortion.end() - fisheye);
   message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};

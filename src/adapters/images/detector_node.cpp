@@ -24,7 +24,8 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       images_(nh, diagnostics_, params_.image_transport, params_.image,
               limitsFor(params_.lockstep, vehicle_.stamps),
               [this](const auto& header, const auto& decoded) { receive(header, decoded); }),
-      tuning_(pnh, params_.detector, [this](const auto& params) { perception_.setParams(params); }),
+      tuning_(pnh, params_.detector,
+              [this](const auto& params) { perception_.setParams(params_.detector = params); }),
       times_(params_.budget_ms, steadyNowSec) {
   perception_.setWatch(&times_.watch());
   if (params_.use_imu)

@@ -54,19 +54,29 @@ std::optional<CompressedSize> jpegSize(const Bytes& bytes) {
   return std::nullopt;
 }
 
-// A PNG ends with the chunk IEND and its checksum, a JPEG with the marker "ff d9".
-bool endsWith(const Bytes& bytes, std::size_t end, std::initializer_list<std::uint8_t> mark) {
-  return end >= mark.size() &&
-         std::equal(mark.begin(), mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end - mark.size()));
+// Where a JPEG's image data begin: behind its first start of scan; nothing if it has none. An embedded
+// preview lies before it, in a segment of its own.
+std::optional<std::size_t> startOfScan(const Bytes& bytes) {
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker == 0xda) return at;
+    at += marker == 0xff ? 1 : 2 + bigEndian(bytes, at + 2, 2);
+  }
+  return std::nullopt;
 }
 
-// Whether a JPEG or PNG ends before its end mark: a decoder would fill the missing part with grey. Zeros
-// after the end mark are padding.
+bool holds(const Bytes& bytes, std::size_t from, std::initializer_list<std::uint8_t> mark) {
+  const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, bytes.size()));
+  return std::search(begin, bytes.end(), mark.begin(), mark.end()) != bytes.end();
+}
+
+// Whether a JPEG or PNG ends before its end mark: a decoder would fill the missing part with grey. Cameras
+// append padding or data of their own.
 bool isCutOff(const Bytes& bytes) {
-  std::size_t end = bytes.size();
-  while (end > 0 && bytes[end - 1] == 0) --end;
-  return !endsWith(bytes, end, {0xff, 0xd9}) &&
-         !endsWith(bytes, end, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
+  if (pngSize(bytes)) return !holds(bytes, 0, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
+  const auto scan = startOfScan(bytes);
+  return !scan || !holds(bytes, *scan, {0xff, 0xd9});
 }
 
 namespace enc = sensor_msgs::image_encodings;

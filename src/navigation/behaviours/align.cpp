@@ -23,8 +23,12 @@ double HeightProbe::climb(double height_m) {
   const auto& align = params_->align;
   beginAt(height_m);
   const double side = count_ % 2 == 0 ? 1.0 : -1.0;
-  const double turning_m = std::clamp(*start_m_ + side * align.probe_amplitude_m,
-                                      params_->limits.min_height_m, params_->limits.max_height_m);
+  const auto turningAt = [&](double offset_m) {
+    return std::clamp(*start_m_ + offset_m, params_->limits.min_height_m, params_->limits.max_height_m);
+  };
+  double turning_m = turningAt(side * align.probe_amplitude_m);
+  if (std::abs(turning_m - *start_m_) < 0.5 * align.probe_amplitude_m)  // at a limit of the height
+    turning_m = turningAt(-side * align.probe_amplitude_m);
   if (std::abs((returns_ ? *start_m_ : turning_m) - height_m) < kReachedM) {
     if (returns_) ++count_;
     returns_ = !returns_;

@@ -45,6 +45,7 @@ std::optional<Event> BackOff::judge(const Situation& situation, const MissionSta
     reason = "window seen again";
     return Event::kReacquired;
   }
+  frames_ = 0;
   constexpr double kFacingRad = 0.1;
   if (std::abs(relative.bearing_rad) > kFacingRad) return std::nullopt;
   reason = "window still not in view";

@@ -258,4 +258,24 @@ TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
   for (const KnownWindow& window : map.windows()) EXPECT_TRUE(window.place.position_m.allFinite());
 }
 
+TEST(FacadeMap, AFullMapForgetsWhatItHasNotSeenForLongestButNotTheTarget) {
+  const test::WindowRow row;
+  std::mt19937 random(10);
+  FacadeMap map{FacadeParams()};
+  const Viewpoint at_first = test::WindowRow::from({-5.0, 0.0, 1.5});
+  std::uint32_t kept = 0;
+  for (int part = 0; part < 60; ++part)  // of a wall that is 1,800 m wide
+    for (int n = 0; n < 5; ++n) {
+      FacadeView view = row.look(10.0 + part + 0.1 * n, at_first, -1, random);
+      view.from = test::WindowRow::from({-5.0, 30.0 * part, 1.5});
+      map.see(view, kWall, row.size, kept);
+      if (part == 0 && n == 4) kept = map.windows().front().id;
+    }
+  EXPECT_LE(map.windows().size(), 64u);
+  EXPECT_NE(kept, 0u);
+  EXPECT_NE(map.find(kept), nullptr);
+  EXPECT_EQ(map.find(kept + 1), nullptr) << "of the first part, too";
+  EXPECT_NE(map.windows().back().id, 0u) << "of the last part";
+}
+
 }  // namespace window_ingress::facade::facade_map_test

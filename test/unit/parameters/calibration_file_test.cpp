@@ -46,7 +46,7 @@ TEST(CalibrationFile, ReadsAFisheyeWithItsFourCoefficients) {
   const auto camera = readCalibrationFile(written(four));
   EXPECT_EQ(camera.model, geometry::LensModel::kEquidistant);
   EXPECT_EQ(camera.distortion[1], 0.05);
-  expectRefused(written(model), "5 numbers; equidistant has 4");
+  expectRefused(written(model), "5 numbers, equidistant has 4");
 }
 
 TEST(CalibrationFile, TheWordFisheyeIsEquidistant) {
@@ -55,7 +55,7 @@ TEST(CalibrationFile, TheWordFisheyeIsEquidistant) {
   const auto camera = readCalibrationFile(written(four));
   EXPECT_EQ(camera.model, geometry::LensModel::kEquidistant);
   EXPECT_EQ(camera.distortion[0], -0.2);
-  expectRefused(written(model), "5 numbers; fisheye has 4");
+  expectRefused(written(model), "5 numbers, fisheye has 4");
 }
 
 TEST(CalibrationFile, RefusesWithFileAndReason) {

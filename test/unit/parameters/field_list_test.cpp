@@ -53,8 +53,8 @@ TEST(FieldList, RefusesWhatItDoesNotKnowByName) {
   EXPECT_EQ(errorOf("edges/flor=1"), "edges/flor: unknown name; did you mean 'floor'?");
   EXPECT_TRUE(test::says(errorOf("edges/floor"), "NAME=VALUE"));
   EXPECT_EQ(errorOf("edges/floor=much"), "edges/floor: 'much' is not a number");
-  EXPECT_TRUE(test::says(errorOf("edges/floor="), "no number"));
-  EXPECT_TRUE(test::says(errorOf("edges/floor=nan"), "no number"));
+  EXPECT_TRUE(test::says(errorOf("edges/floor="), "not a number"));
+  EXPECT_TRUE(test::says(errorOf("edges/floor=nan"), "not a number"));
   EXPECT_TRUE(test::says(errorOf("edges/floor=1e9"), "is not within"));
   EXPECT_TRUE(test::says(errorOf(""), "NAME=VALUE"));
 }

@@ -196,11 +196,13 @@ TEST(CompressedImage, RefusesABombBeforeDecodingIt) {
 TEST(CompressedImage, RefusesWhatIsCutOffButNotWhatIsPadded) {
   for (const char* extension : {".jpg", ".png"}) {
     const sensor_msgs::CompressedImage whole = compressed(extension);
-    sensor_msgs::CompressedImage cut = whole, padded = whole;
+    sensor_msgs::CompressedImage cut = whole, padded = whole, followed = whole;
     cut.data.resize(whole.data.size() * 9 / 10);
     padded.data.resize(whole.data.size() + 100, 0);
+    followed.data.insert(followed.data.end(), 100, 0x5a);  // data of the camera's own
     EXPECT_NE(decode(cut, kLimits).reason.find("cut off"), std::string::npos) << extension;
     EXPECT_EQ(decode(padded, kLimits).reason, "") << extension;
+    EXPECT_EQ(decode(followed, kLimits).reason, "") << extension;
   }
 }
 

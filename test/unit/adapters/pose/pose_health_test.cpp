@@ -73,7 +73,7 @@ TEST(TargetHealth, NamesTheShapeThatIsSeenAndTheOneThatIsSaid) {
   EXPECT_EQ(swapped.level, Health::kError);
   EXPECT_TRUE(says(swapped, "31 images")) << swapped.text;
   EXPECT_TRUE(says(swapped, "1.20 times as wide as it is high")) << swapped.text;
-  EXPECT_TRUE(says(swapped, "1.00 x 1.20 m, 0.83 times")) << swapped.text;
+  EXPECT_TRUE(says(swapped, "1.00 x 1.20 m, is 0.83 times")) << swapped.text;
 }
 
 TEST(TargetHealth, SaysWhyWhereTheShapeIsRight) {

@@ -109,6 +109,19 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
   EXPECT_TRUE(probe.isExhausted());
 }
 
+TEST(HeightProbe, AtALimitOfTheHeightGoesTheOtherWay) {
+  NavigatorParams params = test::withoutGlass();
+  params.limits.max_height_m = 1.5;
+  HeightProbe probe(params);
+  double height = 1.5, lowest = height;
+  int steps = 0;
+  for (; probe.count() < 1 && steps < 1000; ++steps) {
+    height += 0.03 * probe.climb(height);
+    lowest = std::min(lowest, height);
+  }
+  EXPECT_NEAR(lowest, 1.5 - params.align.probe_amplitude_m, 0.08);
+}
+
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   Align align{kDefaults, 0.0};
   MissionState memory;
