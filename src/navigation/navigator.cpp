@@ -41,7 +41,7 @@ struct Navigator::Impl {
   State state = State::kIdle;
   std::unique_ptr<Behaviour> behaviour;  ///< of the present state, if it has one
   std::string reason;
-  MissionState memory;
+  MissionState mission;
   FlownWindow flown_at;
   Setpoint last_setpoint;
   Home home;
@@ -58,7 +58,7 @@ struct Navigator::Impl {
   Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation) {
-    return behaviour ? behaviour->step(situation, memory) : staying();
+    return behaviour ? behaviour->step(situation, mission) : staying();
   }
   Decision staying() const {
     const bool keeps_place = state == State::kHold || (state == State::kPassed && !stands_down);
@@ -89,50 +89,50 @@ void Navigator::Impl::useCamera(const std::optional<CameraInBody>& camera) {
 
 void Navigator::Impl::remember(const Situation& situation, const NavigatorInput& input) {
   if (situation.vehicle_jumped) {
-    memory.forgetPlaces();
+    mission.forgetPlaces();
     observer.restart();
     turn.reset();
     home.odometryJumped();
   }
-  memory.told_odom_mps = last_setpoint.velocity_odom_mps;
+  mission.told_odom_mps = last_setpoint.velocity_odom_mps;
   if (situation.vehicle) {
     turn.update(geometry::yawOf(situation.vehicle->T_odom_base.linear()), last_setpoint.yaw_rate_radps,
                 situation.dt_sec);
-    memory.pending_yaw_rad = turn.rad();
+    mission.pending_yaw_rad = turn.rad();
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
-    if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
-    memory.gusts_odom = observer.gusts();
-    memory.gusts_watched_sec = observer.watchedSec();
+    if (observer.response().isMeasured()) mission.wind_odom_mps = observer.disturbance();
+    mission.gusts_odom = observer.gusts();
+    mission.gusts_watched_sec = observer.watchedSec();
     params.vehicle.response_sec = observer.response().responseSec();
     params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
     params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
-    memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
-    memory.odometry_shift_m = monitor.odometry().shiftM();
-    memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
-    memory.odometry_bias_known = monitor.odometry().isBiasKnown();
-    memory.bringPlaceBack(monitor.odometry().carriedM());
-    memory.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();
-    home.follow(*situation.vehicle, memory);
+    mission.odometry_disagreement_mps = monitor.odometry().disagreementMps();
+    mission.odometry_shift_m = monitor.odometry().shiftM();
+    mission.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
+    mission.odometry_bias_known = monitor.odometry().isBiasKnown();
+    mission.bringPlaceBack(monitor.odometry().carriedM());
+    mission.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();
+    home.follow(*situation.vehicle, mission);
   }
-  noteSide(situation, params, memory);
+  noteSide(situation, params, mission);
   if (state == State::kCommit) {
-    memory.trusted = memory.committed;
+    mission.trusted = mission.committed;
   } else if (situation.target && situation.vehicle &&
-             (isFlownAt() || !isKnownOther(*situation.target, *situation.vehicle, memory))) {
-    memory.window_odom_m = situation.target->T_odom_window.translation();
-    if (situation.target->sign_trusted) memory.trusted = situation.target;
+             (isFlownAt() || !isKnownOther(*situation.target, *situation.vehicle, mission))) {
+    mission.window_odom_m = situation.target->T_odom_window.translation();
+    if (situation.target->sign_trusted) mission.trusted = situation.target;
   } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
-    memory.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
+    mission.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
   }
   const bool flies_at = state == State::kApproach || state == State::kCommit;
-  flown_at.follow(flies_at ? memory.trusted : std::nullopt, situation, monitor.odometry());
+  flown_at.follow(flies_at ? mission.trusted : std::nullopt, situation, monitor.odometry());
 }
 
 // The mission does not exchange a window that it flies at, and flies at none from behind. COMMIT judges its
 // own sightings.
 void Navigator::Impl::keepToWindow(Situation& situation) const {
   if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
-  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, memory);
+  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, mission);
   if (why_not.empty()) return;
   situation.target.reset();
   situation.target_is_new = false;
@@ -147,8 +147,8 @@ Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& s
 }
 
 bool Navigator::Impl::isInOpening(const Situation& situation) const {
-  if (state != State::kCommit || !situation.vehicle || !memory.committed) return false;
-  return relate(*situation.vehicle, *memory.committed).distance() < params.vehicle.half_length_m;
+  if (state != State::kCommit || !situation.vehicle || !mission.committed) return false;
+  return relate(*situation.vehicle, *mission.committed).distance() < params.vehicle.half_length_m;
 }
 
 std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
@@ -172,10 +172,10 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
 void Navigator::Impl::change(State to, const std::string& why) {
   clock.enterState();
   reason = why;
-  memory.was_near = memory.was_near || to == State::kApproach;
-  behaviour = behaviourOf(to, state, clock.nowSec(), !memory.was_near, params);
-  if (to == State::kBackOff) ++memory.back_offs;
-  if (isMoving(to) && to != State::kCommit) memory.committed.reset();  // its place is outdated
+  mission.was_near = mission.was_near || to == State::kApproach;
+  behaviour = behaviourOf(to, state, clock.nowSec(), !mission.was_near, params);
+  if (to == State::kBackOff) ++mission.back_offs;
+  if (isMoving(to) && to != State::kCommit) mission.committed.reset();  // its place is outdated
   if (to == State::kHold) observer.restart();  // the present disturbance may not be wind
   state = to;
 }
@@ -184,12 +184,12 @@ Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situ
   if (!mayHaveVelocity(state) || !situation.vehicle) return limiter.stop();
   Setpoint wish = decision.wish;
   if (decision.keeps_place) {
-    const Eigen::Vector3d back = velocityToPlace(*situation.vehicle, memory, params);
+    const Eigen::Vector3d back = velocityToPlace(*situation.vehicle, mission, params);
     wish.velocity_odom_mps.head<2>() = back.head<2>();
     if (wish.velocity_odom_mps.z() == 0.0) wish.velocity_odom_mps.z() = back.z();
   }
   Setpoint limited = limiter.limit(wish, situation.dt_sec);
-  limited.velocity_odom_mps = permittedVelocity(limited.velocity_odom_mps, state, situation, memory, params);
+  limited.velocity_odom_mps = permittedVelocity(limited.velocity_odom_mps, state, situation, mission, params);
   return limiter.cutTo(limited);
 }
 
@@ -206,8 +206,8 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   const auto faults = unmetToStart(situation, input.engaged, self.flown_at, self.params);
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.follow(policy);
-  self.memory = MissionState();
-  self.memory.was_near = self.flown_at.mayHaveRoofAbove(*situation.vehicle);
+  self.mission = MissionState();
+  self.mission.was_near = self.flown_at.mayHaveRoofAbove(*situation.vehicle);
   self.observer.reset();
   self.turn.reset();
   self.home = Home();
@@ -244,11 +244,11 @@ Reply Navigator::reset() {
 
 Reply Navigator::confirmOpening() {
   auto& self = *impl_;
-  if (!self.isFlownAt() || !self.memory.trusted)
+  if (!self.isFlownAt() || !self.mission.trusted)
     return {false, std::string("no window is being approached: ") + toString(self.state)};
-  if (!self.memory.opening_asked && !self.memory.opening_confirmed)
+  if (!self.mission.opening_asked && !self.mission.opening_confirmed)
     return {false, "not asked yet: the vehicle asks while it waits at the commit line"};
-  self.memory.opening_confirmed = true;
+  self.mission.opening_confirmed = true;
   return {true, "confirmed: the window is open and has no glass"};
 }
 
@@ -260,20 +260,20 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   self.useCamera(input.camera);
   Situation situation = self.monitor.judge(input, now_sec);
-  const std::string elsewhere = whySentElsewhere(situation, self.state, self.memory);
-  if (!elsewhere.empty()) self.memory.leaveWindow();
+  const std::string elsewhere = whySentElsewhere(situation, self.state, self.mission);
+  if (!elsewhere.empty()) self.mission.leaveWindow();
   self.keepToWindow(situation);
   self.clock.pass(now_sec);
   self.remember(situation, input);
   Decision decision = self.decide(input, situation, elsewhere);
-  turnToNextWindow(self.state, self.params, self.memory, decision);
+  turnToNextWindow(self.state, self.params, self.mission, decision);
   self.reason = decision.reason;
   const auto to = decision.event ? next(self.state, *decision.event) : std::nullopt;
   if (to) {
     self.change(*to, decision.reason);
     decision = isMoving(*to) ? self.behave(situation) : self.staying();
   }
-  rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.memory);
+  rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.mission);
   NavigatorOutput output;
   output.setpoint = self.last_setpoint = self.output(decision, situation);
   output.setpoint.velocity_odom_mps = self.monitor.odometry().inOdomAxes(output.setpoint.velocity_odom_mps);
@@ -281,7 +281,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;
-  output.report = reportOn(situation, self.memory, self.params);
+  output.report = reportOn(situation, self.mission, self.params);
   output.report.vehicle = self.measuredVehicle();
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;

@@ -61,21 +61,21 @@ Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, doubl
   return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
 }
 
-Decision Align::step(const Situation& situation, MissionState& memory) {
-  if (auto other = leaveOtherWindow(situation, memory)) return *other;
+Decision Align::step(const Situation& situation, MissionState& mission) {
+  if (auto other = leaveOtherWindow(situation, mission)) return *other;
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
-  if (!situation.target->sign_trusted) return resolveSign(situation, memory, relative);
+  if (!situation.target->sign_trusted) return resolveSign(situation, mission, relative);
   ambiguous_since_sec_ = situation.now_sec;
   if (situation.target->approach_forbidden.empty()) probe_.reset();
-  return moveOntoAxis(situation, memory, relative);
+  return moveOntoAxis(situation, mission, relative);
 }
 
-Decision Align::resolveSign(const Situation& situation, const MissionState& memory,
+Decision Align::resolveSign(const Situation& situation, const MissionState& mission,
                             const RelativeState& relative) {
   in_funnel_since_sec_.reset();
   Decision decision;
   decision.keeps_place = true;
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, mission, *params_);
   const double height_m = situation.vehicle->T_odom_base.translation().z();
   if (situation.now_sec - ambiguous_since_sec_ < kAmbiguousSec) {
     const double limit_mps = params_->align.vertical_speed_mps;
@@ -99,10 +99,10 @@ bool Align::isNearAxis(const RelativeState& relative, const CommitCriterion& cri
   return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
 }
 
-Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
+Decision Align::moveOntoAxis(const Situation& situation, MissionState& mission,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
-  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, mission, *params_);
   const bool has_size = target.fit != estimation::Fit::kUnknown;
   if (has_size && std::min(criterion.clearance_lateral_m, criterion.clearance_vertical_m) <= 0.0)
     return {{}, false, Event::kGiveUp, "the opening is too small for the vehicle"};
@@ -113,9 +113,9 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
                                               params_->align.lateral_speed_mps, *params_);
   const double forward_mps = near_axis && !is_forbidden ? 0.0 : std::min(0.0, retreat_mps);
   decision.wish.velocity_odom_mps =
-      pacer_.pace(velocityAlongAxis(relative, target, forward_mps, memory.wind_odom_mps, *params_),
+      pacer_.pace(velocityAlongAxis(relative, target, forward_mps, mission.wind_odom_mps, *params_),
                   uprightRotation(target), situation);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, mission, *params_);
   decision.reason = "moving onto the window's normal";
   if (heldSec(near_axis, situation.now_sec, in_funnel_since_sec_) < kFunnelDwellSec) return decision;
   if (is_forbidden) return probeForLeave(situation, relative, decision);

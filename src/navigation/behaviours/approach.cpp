@@ -15,38 +15,38 @@ constexpr double kLeaveFactor = 1.3,
 
 }  // namespace
 
-Decision Approach::step(const Situation& situation, MissionState& memory) {
-  if (auto other = leaveOtherWindow(situation, memory)) return *other;
+Decision Approach::step(const Situation& situation, MissionState& mission) {
+  if (auto other = leaveOtherWindow(situation, mission)) return *other;
   const auto& target = *situation.target;
   const RelativeState relative = relate(*situation.vehicle, target);
   Decision decision;
-  decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), memory, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), mission, *params_);
   if (!target.sign_trusted || !target.approach_forbidden.empty()) {
     decision.event = Event::kMisaligned;
     decision.reason = target.sign_trusted ? "approach forbidden: " + target.approach_forbidden
                                           : "sign of the window's yaw unknown again";
     return decision;
   }
-  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, mission, *params_);
   RelativeState to_goal = relative;
   to_goal.position_window_m.y() -= asideM(criterion, situation);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(criterion, relative), target, memory),
-                        memory.wind_odom_mps, *params_),
+      velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(criterion, relative), target, mission),
+                        mission.wind_odom_mps, *params_),
       uprightRotation(target), situation);
   decision.reason = criterion.holds ? "on the window's normal" : criterion.unmet;
-  if (!criterion.holds) memory.unmet = criterion.unmet;
+  if (!criterion.holds) mission.unmet = criterion.unmet;
   decision.event = judge(criterion, relative, situation, decision.reason);
-  const bool is_to_be_asked = isToBeAsked(target, memory, params_->commit);
-  memory.opening_asked = looks_ && is_to_be_asked;
-  const bool only_that = criterion.unmet == whyNotEntered(target, memory, params_->commit);
+  const bool is_to_be_asked = isToBeAsked(target, mission, params_->commit);
+  mission.opening_asked = looks_ && is_to_be_asked;
+  const bool only_that = criterion.unmet == whyNotEntered(target, mission, params_->commit);
   if (is_to_be_asked && !looks_ && only_that && !decision.event)
     decision.reason = "on the window's normal; will ask at the commit line whether it is open";
   if (decision.event == Event::kCommitReached) {
-    memory.committed = target;
-    memory.committed_sec = situation.now_sec;
-    memory.predicted_miss_m = criterion.missM();
-    memory.blind_sec = 0.0;
+    mission.committed = target;
+    mission.committed_sec = situation.now_sec;
+    mission.predicted_miss_m = criterion.missM();
+    mission.blind_sec = 0.0;
   }
   return decision;
 }

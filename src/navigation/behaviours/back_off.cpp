@@ -6,9 +6,9 @@
 
 namespace window_ingress::navigation {
 
-Decision BackOff::step(const Situation& situation, MissionState& memory) {
-  if (!memory.trusted) return withoutNormal(memory);
-  const auto& target = *memory.trusted;
+Decision BackOff::step(const Situation& situation, MissionState& mission) {
+  if (!mission.trusted) return withoutNormal(mission);
+  const auto& target = *mission.trusted;
   const RelativeState relative = relate(*situation.vehicle, target);
   const double room_m = params_->back_off.distance_m - relative.distance();
   const double speed_mps = std::min(params_->back_off.speed_mps, 0.1 + std::max(0.0, room_m));
@@ -16,27 +16,27 @@ Decision BackOff::step(const Situation& situation, MissionState& memory) {
   const double turning_radius_m = std::hypot(params_->vehicle.half_length_m, params_->vehicle.half_width_m);
   const bool is_clear = relative.distance() > turning_radius_m + params_->vehicle.margin_m;
   decision.wish.velocity_odom_mps = velocityAlongAxis(
-      relative, target, againstTailwind(-speed_mps, target, memory), memory.wind_odom_mps, *params_);
-  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
+      relative, target, againstTailwind(-speed_mps, target, mission), mission.wind_odom_mps, *params_);
+  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, mission, *params_);
   decision.reason = "away from the window along its normal";
   if (room_m <= 0.0) {
     decision.wish.velocity_odom_mps.setZero();
     decision.keeps_place = true;
-    decision.event = judge(situation, memory, relative, decision.reason);
+    decision.event = judge(situation, mission, relative, decision.reason);
   }
   return decision;
 }
 
-Decision BackOff::withoutNormal(const MissionState& memory) const {
-  const Event event = hasRetriesLeft(memory, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
+Decision BackOff::withoutNormal(const MissionState& mission) const {
+  const Event event = hasRetriesLeft(mission, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
   return {{}, true, event, "no trusted normal to back off along"};
 }
 
-std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,
+std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& mission,
                                     const RelativeState& relative, std::string& reason) {
-  if (!hasRetriesLeft(memory, params_->back_off)) {
+  if (!hasRetriesLeft(mission, params_->back_off)) {
     reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";
-    if (!memory.unmet.empty()) reason += ": " + memory.unmet;
+    if (!mission.unmet.empty()) reason += ": " + mission.unmet;
     return Event::kGiveUp;
   }
   if (situation.target) {

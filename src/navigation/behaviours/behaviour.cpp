@@ -17,13 +17,13 @@ constexpr double kMaxUnexplainedMps = 0.08;  // until a steady velocity bias can
 // The forward speed may rise by this share of its gain per response time; by more below kMuchAcrossMps.
 constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
 
-std::string whyNoOdometryToCommitBy(const MissionState& memory) {
-  if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
+std::string whyNoOdometryToCommitBy(const MissionState& mission) {
+  if (mission.odometry_disagreement_mps > kMaxDisagreementMps)
     return formatted("odometry: position and velocity disagree by %.2f m/s",
-                     memory.odometry_disagreement_mps);
-  if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
+                     mission.odometry_disagreement_mps);
+  if (!mission.odometry_bias_known && mission.odometry_unexplained_mps > kMaxUnexplainedMps)
     return formatted("odometry: its velocity is off by %.2f m/s, not yet known to be a constant bias",
-                     memory.odometry_unexplained_mps);
+                     mission.odometry_unexplained_mps);
   return "";
 }
 
@@ -72,41 +72,41 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
   return since_sec ? now_sec - *since_sec : -1.0;
 }
 
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory) {
-  if (!memory.trusted || !situation.vehicle) return;
-  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
-  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.vehicle.margin_m;
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& mission) {
+  if (!mission.trusted || !situation.vehicle) return;
+  const double distance_m = relate(*situation.vehicle, *mission.trusted).distance();
+  mission.was_in_front = distance_m > params.vehicle.half_length_m + params.vehicle.margin_m;
 }
 
-std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& memory) {
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission) {
   const auto& target = *situation.target;
-  if (!target.other_window) return leaveClosedOpening(situation, memory);
+  if (!target.other_window) return leaveClosedOpening(situation, mission);
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
-  memory.others_odom_m.push_back(position +
-                                 *target.other_window * (target.T_odom_window.translation() - position));
-  ++memory.others;
-  if (target.window_id != 0) memory.given_up.push_back(target.window_id);
-  memory.leaveWindow();
+  mission.others_odom_m.push_back(position +
+                                  *target.other_window * (target.T_odom_window.translation() - position));
+  ++mission.others;
+  if (target.window_id != 0) mission.given_up.push_back(target.window_id);
+  mission.leaveWindow();
   return Decision{{}, true, Event::kOtherWindow, target.approach_forbidden};
 }
 
-bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory) {
-  if (wasLeftForGood(target, memory)) return true;
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission) {
+  if (wasLeftForGood(target, mission)) return true;
   constexpr double kSameDirectionRad = 0.12;
   const Eigen::Vector3d position = vehicle.T_odom_base.translation();
   const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();
-  return std::any_of(memory.others_odom_m.begin(), memory.others_odom_m.end(),
+  return std::any_of(mission.others_odom_m.begin(), mission.others_odom_m.end(),
                      [&](const Eigen::Vector3d& other) {
                        return sight.dot((other - position).normalized()) > std::cos(kSameDirectionRad);
                      });
 }
 
 CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
-                              const MissionState& memory, const NavigatorParams& params, double unseen_sec) {
+                              const MissionState& mission, const NavigatorParams& params, double unseen_sec) {
   const Eigen::Matrix3d R_odom_window = uprightRotation(target);
   const auto along = [&](int axis) {
     const Eigen::Vector3d direction = R_odom_window.col(axis);
-    return std::sqrt(std::max(0.0, direction.dot(memory.gusts_odom * direction)));
+    return std::sqrt(std::max(0.0, direction.dot(mission.gusts_odom * direction)));
   };
   CommitCriterionInput input;
   input.relative = relate(vehicle, target);
@@ -116,26 +116,26 @@ CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& 
   input.motion = target.motion;
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
-  input.gusts_watched_sec = memory.gusts_watched_sec;
-  input.odometry_mps = memory.odometry_unexplained_mps;
-  input.drift_m_per_sqrt_sec = memory.odometry_drift_m_per_sqrt_sec;
+  input.gusts_watched_sec = mission.gusts_watched_sec;
+  input.odometry_mps = mission.odometry_unexplained_mps;
+  input.drift_m_per_sqrt_sec = mission.odometry_drift_m_per_sqrt_sec;
   CommitCriterion criterion = evaluateCommitCriterion(input, params);
-  const std::string why_not = whyNotEntered(target, memory, params.commit);
+  const std::string why_not = whyNotEntered(target, mission, params.commit);
   criterion.opening_unverified = !why_not.empty();
-  if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(memory);
+  if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(mission);
   if (criterion.unmet.empty()) criterion.unmet = target.unverified;
   if (criterion.unmet.empty()) criterion.unmet = why_not;
   criterion.holds = criterion.unmet.empty();
   return criterion;
 }
 
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory) {
-  return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(memory.wind_odom_mps));
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& mission) {
+  return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(mission.wind_odom_mps));
 }
 
-double yawRateFor(double error_rad, const MissionState& memory, const NavigatorParams& params) {
+double yawRateFor(double error_rad, const MissionState& mission, const NavigatorParams& params) {
   const double limit = params.limits.yaw_rate_radps;
-  return std::clamp(params.align.yaw_gain_hz * (error_rad - memory.pending_yaw_rad), -limit, limit);
+  return std::clamp(params.align.yaw_gain_hz * (error_rad - mission.pending_yaw_rad), -limit, limit);
 }
 
 double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {

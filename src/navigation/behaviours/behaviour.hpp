@@ -74,7 +74,7 @@ class Behaviour {
   explicit Behaviour(NavigatorParams&&) = delete;  ///< the parameters must outlive this
   virtual ~Behaviour() = default;
 
-  virtual Decision step(const Situation& situation, MissionState& memory) = 0;
+  virtual Decision step(const Situation& situation, MissionState& mission) = 0;
 
  protected:
   const NavigatorParams* params_;
@@ -84,26 +84,26 @@ class Behaviour {
 double heldSec(bool condition, double now_sec, std::optional<double>& since_sec);
 
 /// Remembers on which side of the window the vehicle is, for when the window's place is forgotten.
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory);
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& mission);
 
 /// Leaves a target that turned out to be another window or closed, and remembers its place.
-std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& memory);
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission);
 
 /// The target was left for good, or lies in the direction of a window that is known to be another one. Only
 /// the direction counts, because the distance was computed with a size that window does not have.
-bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory);
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission);
 
 /// The commit criterion for this vehicle and window, now. \param unseen_sec time since the last information
 /// about the window
 CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
-                              const MissionState& memory, const NavigatorParams& params,
+                              const MissionState& mission, const NavigatorParams& params,
                               double unseen_sec = 0.0);
 
 /// Forward velocity less the wind's component towards the window; headwind is not compensated.
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory);
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& mission);
 
 /// Yaw rate that removes the heading error, less the yaw that is already commanded.
-double yawRateFor(double error_rad, const MissionState& memory, const NavigatorParams& params);
+double yawRateFor(double error_rad, const MissionState& mission, const NavigatorParams& params);
 
 /// Heading error [rad]: relative to the direction of the window's centre; near the wall relative to the
 /// window's normal, because a turned body is wider.

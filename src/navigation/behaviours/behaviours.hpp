@@ -20,15 +20,15 @@ class Search : public Behaviour {
   /// \param may_climb false once a mission has been near the window: the space above may not be free
   Search(const NavigatorParams& params, bool may_climb) : Behaviour(params), may_climb_(may_climb) {}
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
  private:
-  Decision lookAt(const Situation& situation, const MissionState& memory);
+  Decision lookAt(const Situation& situation, const MissionState& mission);
   /// Fastest yaw rate [rad/s] without blur and without skipping a window between two images (trap: faster
   /// finds less).
   double fastestTurn(double image_period_sec) const;
-  double sweep(const VehicleState& vehicle, MissionState& memory);
-  void countTurn(double heading_rad, MissionState& memory);
+  double sweep(const VehicleState& vehicle, MissionState& mission);
+  void countTurn(double heading_rad, MissionState& mission);
 
   bool may_climb_;
   std::optional<double> height_m_;
@@ -98,12 +98,13 @@ class Align : public Behaviour {
  public:
   Align(const NavigatorParams& params, double now_sec) : Behaviour(params), ambiguous_since_sec_(now_sec) {}
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
  private:
-  Decision resolveSign(const Situation& situation, const MissionState& memory, const RelativeState& relative);
+  Decision resolveSign(const Situation& situation, const MissionState& mission,
+                       const RelativeState& relative);
   bool isNearAxis(const RelativeState& relative, const CommitCriterion& criterion, bool is_forbidden) const;
-  Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
+  Decision moveOntoAxis(const Situation& situation, MissionState& mission, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, const RelativeState& relative, Decision decision);
 
   HeightProbe probe_{*params_};
@@ -118,7 +119,7 @@ class Approach : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
  private:
   double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const;
@@ -144,17 +145,17 @@ class Commit : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
   /// Whether COMMIT may resume after a loss of odometry: the vehicle is already through, or the criterion
   /// still holds for the committed window with the drift since. A vehicle that can still stop must also see
   /// the window at its place.
-  static bool canResume(const Situation& situation, const MissionState& memory,
+  static bool canResume(const Situation& situation, const MissionState& mission,
                         const NavigatorParams& params);
 
  private:
   void heedForbidden(const TargetEstimate& target);
-  void refine(const Situation& situation, MissionState& memory);
+  void refine(const Situation& situation, MissionState& mission);
   void turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const;
   double forwardSpeed(const RelativeState& relative);
   double speedToExit(double room_m, const RelativeState& relative) const;
@@ -176,11 +177,11 @@ class BackOff : public Behaviour {
  public:
   using Behaviour::Behaviour;
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
  private:
-  Decision withoutNormal(const MissionState& memory) const;
-  std::optional<Event> judge(const Situation& situation, const MissionState& memory,
+  Decision withoutNormal(const MissionState& mission) const;
+  std::optional<Event> judge(const Situation& situation, const MissionState& mission,
                              const RelativeState& relative, std::string& reason);
 
   int frames_ = 0;
@@ -194,11 +195,11 @@ class Hold : public Behaviour {
   /// \param from the state before HOLD
   Hold(const NavigatorParams& params, State from) : Behaviour(params), from_(from) {}
 
-  Decision step(const Situation& situation, MissionState& memory) override;
+  Decision step(const Situation& situation, MissionState& mission) override;
 
  private:
-  bool mayRetreat(const Situation& situation, const MissionState& memory) const;
-  std::optional<Event> wayOn(const Situation& situation, const MissionState& memory,
+  bool mayRetreat(const Situation& situation, const MissionState& mission) const;
+  std::optional<Event> wayOn(const Situation& situation, const MissionState& mission,
                              std::string& reason) const;
 
   State from_;

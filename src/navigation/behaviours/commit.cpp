@@ -27,9 +27,9 @@ bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
 
 /// The nose can stop before the opening within 1 / `reserve` of the distance left. Assumes the speed that the
 /// vehicle has, plus what it gains from the last command within its response time.
-bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
+bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& mission,
              const NavigatorParams& params, double reserve = 1.0) {
-  const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
+  const double told_mps = uprightRotation(target).col(0).dot(mission.told_odom_mps);
   const double now_mps = std::max(0.0, relative.velocity_window_mps.x());
   const double gained_mps = params.vehicle.braking_mps2 * params.vehicle.response_sec;
   const double speed_mps = std::max(now_mps, std::min(told_mps, now_mps + gained_mps));
@@ -38,8 +38,8 @@ bool canStop(const RelativeState& relative, const TargetEstimate& target, const 
 }
 
 /// The wind's component along the window's normal [m/s].
-double windAlong(const TargetEstimate& target, const MissionState& memory) {
-  return uprightRotation(target).col(0).dot(memory.wind_odom_mps);
+double windAlong(const TargetEstimate& target, const MissionState& mission) {
+  return uprightRotation(target).col(0).dot(mission.wind_odom_mps);
 }
 
 /// The window is seen at its committed place. After a loss, odometry may have come back elsewhere.
@@ -52,32 +52,32 @@ bool seesCommitted(const Situation& situation, const TargetEstimate& committed) 
 
 }  // namespace
 
-Decision Commit::step(const Situation& situation, MissionState& memory) {
-  refine(situation, memory);
-  const TargetEstimate target = ahead(*memory.committed, situation.now_sec);
+Decision Commit::step(const Situation& situation, MissionState& mission) {
+  refine(situation, mission);
+  const TargetEstimate target = ahead(*mission.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, target);
   const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
-  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
-  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_, unknown_sec);
-  if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
+  const double unknown_sec = std::max(0.0, situation.now_sec - mission.committed_sec);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, mission, *params_, unknown_sec);
+  if (relative.distance() > 0.0) mission.blind_sec = std::max(mission.blind_sec, blind_sec);
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, againstTailwind(forwardSpeed(relative), target, memory),
-                        memory.wind_odom_mps, *params_);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, memory, *params_);
+      velocityAlongAxis(relative, target, againstTailwind(forwardSpeed(relative), target, mission),
+                        mission.wind_odom_mps, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, mission, *params_);
   decision.reason = formatted("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
     const double room_m = params_->commit.exit_distance_m + relative.distance();
     decision.wish.velocity_odom_mps =
-        velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, memory),
-                          memory.wind_odom_mps, *params_);
+        velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, mission),
+                          mission.wind_odom_mps, *params_);
     decision.reason = formatted("%.2f m behind the window", -relative.distance());
     const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStoppedMps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
-  } else if (canStop(relative, target, memory, *params_, is_bound_ ? kReserve : 1.0)) {
+  } else if (canStop(relative, target, mission, *params_, is_bound_ ? kReserve : 1.0)) {
     is_bound_ = false;
-    memory.predicted_miss_m = criterion.missM();
+    mission.predicted_miss_m = criterion.missM();
     turnBackIfUnsafe(criterion, blind_sec, decision);
   } else {
     is_bound_ = true;
@@ -102,15 +102,15 @@ void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec
   }
 }
 
-void Commit::refine(const Situation& situation, MissionState& memory) {
-  if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
+void Commit::refine(const Situation& situation, MissionState& mission) {
+  if (!entry_odom_m_) entry_odom_m_ = mission.committed->T_odom_window.translation();
   if (situation.target && situation.target_is_new) heedForbidden(*situation.target);
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
   disagreement_m_ = moved.norm();
   if (disagreement_m_ < kMaxUpdateJumpM + reachM(situation.target->motion)) {
-    memory.committed = situation.target;
-    memory.committed_sec = situation.now_sec;
+    mission.committed = situation.target;
+    mission.committed_sec = situation.now_sec;
     disagreements_ = 0;
   } else if (situation.target_is_new && ++disagreements_ >= kInARow && is_bound_) {
     entry_odom_m_ = situation.target->T_odom_window.translation();
@@ -138,15 +138,15 @@ double Commit::speedToExit(double room_m, const RelativeState& relative) const {
   return std::clamp(wish_mps, -params_->hold.speed_mps, params_->hold.speed_mps);
 }
 
-bool Commit::canResume(const Situation& situation, const MissionState& memory,
+bool Commit::canResume(const Situation& situation, const MissionState& mission,
                        const NavigatorParams& params) {
-  if (!memory.committed || !situation.vehicle) return false;
-  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
-  const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
+  if (!mission.committed || !situation.vehicle) return false;
+  const double unknown_sec = std::max(0.0, situation.now_sec - mission.committed_sec);
+  const TargetEstimate committed = ahead(*mission.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
-  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed)) return false;
-  return !isBroken(criterionWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
+  if (canStop(relative, committed, mission, params) && !seesCommitted(situation, committed)) return false;
+  return !isBroken(criterionWith(committed, *situation.vehicle, mission, params, unknown_sec), params);
 }
 
 }  // namespace window_ingress::navigation

@@ -5,7 +5,7 @@ namespace {
 constexpr double kGoodInputSec = 0.2;  // inputs must be good for this time before the mission continues
 }
 
-Decision Hold::step(const Situation& situation, MissionState& memory) {
+Decision Hold::step(const Situation& situation, MissionState& mission) {
   held_sec_ += situation.dt_sec;
   const bool needs_image = from_ != State::kCommit;  // COMMIT flies on without images
   const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&
@@ -18,9 +18,9 @@ Decision Hold::step(const Situation& situation, MissionState& memory) {
                     : !is_good                          ? situation.image_fault
                                                         : situation.target_fault;
   if (decision.reason.empty()) decision.reason = "inputs are back";
-  if (is_good && good_sec_ >= kGoodInputSec) decision.event = wayOn(situation, memory, decision.reason);
+  if (is_good && good_sec_ >= kGoodInputSec) decision.event = wayOn(situation, mission, decision.reason);
   if (!decision.event && situation.setpoint_fault.empty() && !situation.target &&
-      mayRetreat(situation, memory))
+      mayRetreat(situation, mission))
     decision.event = Event::kWindowLost;
   if (!decision.event && held_sec_ > params_->hold.timeout_sec) {
     decision.event = Event::kGiveUp;
@@ -31,21 +31,21 @@ Decision Hold::step(const Situation& situation, MissionState& memory) {
 
 // Without images the mission cannot continue, but odometry and the normal still lead away from the wall. The
 // vehicle retreats at once where wind could carry it into the wall meanwhile.
-bool Hold::mayRetreat(const Situation& situation, const MissionState& memory) const {
-  if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
-  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
+bool Hold::mayRetreat(const Situation& situation, const MissionState& mission) const {
+  if (from_ == State::kSearch || !situation.vehicle || !mission.trusted) return false;
+  const double distance_m = relate(*situation.vehicle, *mission.trusted).distance();
   if (distance_m < -params_->vehicle.half_length_m) return false;  // no way back through the opening
   const bool is_near = from_ != State::kCommit && distance_m < params_->limits.wall_distance_m;
   return is_near || held_sec_ > params_->hold.patience_sec;
 }
 
-std::optional<Event> Hold::wayOn(const Situation& situation, const MissionState& memory,
+std::optional<Event> Hold::wayOn(const Situation& situation, const MissionState& mission,
                                  std::string& reason) const {
   if (from_ == State::kCommit) {
-    if (Commit::canResume(situation, memory, *params_)) return Event::kResumed;
+    if (Commit::canResume(situation, mission, *params_)) return Event::kResumed;
     reason = "the commit cannot be resumed";
-    if (memory.trusted) return Event::kWindowLost;
-    if (!memory.was_in_front) return Event::kGiveUp;  // the opening's place is unknown
+    if (mission.trusted) return Event::kWindowLost;
+    if (!mission.was_in_front) return Event::kGiveUp;  // the opening's place is unknown
     return situation.target ? std::optional(Event::kReacquired) : std::nullopt;
   }
   if (situation.target) {
@@ -53,10 +53,10 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionState&
     return Event::kReacquired;
   }
   if (from_ == State::kSearch || from_ == State::kBackOff) {
-    return memory.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
+    return mission.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
   }
   if (held_sec_ < params_->hold.patience_sec) return std::nullopt;
-  return memory.trusted ? Event::kWindowLost : Event::kInputFresh;
+  return mission.trusted ? Event::kWindowLost : Event::kInputFresh;
 }
 
 }  // namespace window_ingress::navigation

@@ -11,12 +11,12 @@ namespace window_ingress::navigation {
 class Home {
  public:
   /// Updates `MissionState::home_odom_m`; the first call sets it.
-  void follow(const VehicleState& vehicle, MissionState& memory) {
+  void follow(const VehicleState& vehicle, MissionState& mission) {
     const Eigen::Vector3d position = vehicle.T_odom_base.translation();
-    if (!memory.home_odom_m) from_home_m_ = Eigen::Vector3d::Zero();
-    if (!position_odom_m_ || !memory.home_odom_m) memory.home_odom_m = position - from_home_m_;
+    if (!mission.home_odom_m) from_home_m_ = Eigen::Vector3d::Zero();
+    if (!position_odom_m_ || !mission.home_odom_m) mission.home_odom_m = position - from_home_m_;
     position_odom_m_ = position;
-    from_home_m_ = position - *memory.home_odom_m;
+    from_home_m_ = position - *mission.home_odom_m;
   }
 
   void odometryJumped() { position_odom_m_.reset(); }

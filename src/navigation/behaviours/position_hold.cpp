@@ -21,21 +21,21 @@ Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_m
   return {share * velocity.x(), share * velocity.y(), std::clamp(velocity.z(), -limit_mps, limit_mps)};
 }
 
-bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& memory) {
-  if (!memory.trusted) return false;
-  const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
-  return normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
+bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& mission) {
+  if (!mission.trusted) return false;
+  const Eigen::Vector3d normal = uprightRotation(*mission.trusted).col(0);
+  return normal.dot(mission.trusted->T_odom_window.translation() - position_m) < 0.0;
 }
 
 /// Directions towards the windows in front; along the normal where it is known.
-std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, const MissionState& memory) {
+std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, const MissionState& mission) {
   std::vector<Eigen::Vector3d> directions;
-  if (isBehindWindow(position_m, memory)) return directions;
-  if (memory.trusted)
-    directions.push_back(uprightRotation(*memory.trusted).col(0));
-  else if (memory.window_odom_m)
-    directions.push_back(levelDirection(*memory.window_odom_m - position_m));
-  for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m})
+  if (isBehindWindow(position_m, mission)) return directions;
+  if (mission.trusted)
+    directions.push_back(uprightRotation(*mission.trusted).col(0));
+  else if (mission.window_odom_m)
+    directions.push_back(levelDirection(*mission.window_odom_m - position_m));
+  for (const auto* windows : {&mission.left_odom_m, &mission.others_odom_m})
     for (const Eigen::Vector3d& window_odom_m : *windows)
       directions.push_back(levelDirection(window_odom_m - position_m));
   return directions;
@@ -50,42 +50,43 @@ Eigen::Vector3d towardsNoWindow(Eigen::Vector3d way, const std::vector<Eigen::Ve
 }
 
 /// The vehicle is further from its place than wind and its own errors explain.
-bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionState& memory) {
-  return memory.place_odom_m &&
-         (*memory.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
+bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionState& mission) {
+  return mission.place_odom_m &&
+         (*mission.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
 }
 
 }  // namespace
 
-void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params, MissionState& memory) {
+void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
+                   MissionState& mission) {
   if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
-      isTorn(*situation.vehicle, params, memory)) {
-    memory.place_odom_m.reset();
-    memory.keeping_since_sec.reset();
+      isTorn(*situation.vehicle, params, mission)) {
+    mission.place_odom_m.reset();
+    mission.keeping_since_sec.reset();
     return;
   }
-  if (!memory.keeping_since_sec) memory.keeping_since_sec = situation.now_sec;
+  if (!mission.keeping_since_sec) mission.keeping_since_sec = situation.now_sec;
   const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
-  const bool has_settled = situation.now_sec - *memory.keeping_since_sec >= kSettleSec;
-  if (!memory.place_odom_m && (stands || has_settled))
-    memory.place_odom_m = situation.vehicle->T_odom_base.translation();
+  const bool has_settled = situation.now_sec - *mission.keeping_since_sec >= kSettleSec;
+  if (!mission.place_odom_m && (stands || has_settled))
+    mission.place_odom_m = situation.vehicle->T_odom_base.translation();
 }
 
-Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionState& memory,
+Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionState& mission,
                                 const NavigatorParams& params) {
-  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d way = *memory.place_odom_m - vehicle.T_odom_base.translation() -
+  if (!mission.place_odom_m) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d way = *mission.place_odom_m - vehicle.T_odom_base.translation() -
                               vehicle.velocity_odom_mps * params.vehicle.response_sec;
   return levelAndVertical(params.align.lateral_gain_hz * way, params.hold.speed_mps);
 }
 
 Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
-                            const MissionState& memory, const HoldParams& params) {
-  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
+                            const MissionState& mission, const HoldParams& params) {
+  if (!mission.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
-  const Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  const Eigen::Vector3d way = *mission.place_odom_m - position_m;
   const Eigen::Vector3d level_way =
-      towardsNoWindow({way.x(), way.y(), 0.0}, towardsWindows(position_m, memory));
+      towardsNoWindow({way.x(), way.y(), 0.0}, towardsWindows(position_m, mission));
   const bool leads_back = std::abs(way.z()) >= kThereM && velocity_odom_mps.z() * way.z() > 0.0;
   Eigen::Vector3d velocity(0.0, 0.0, leads_back ? velocity_odom_mps.z() : 0.0);
   if (level_way.norm() >= kThereM)

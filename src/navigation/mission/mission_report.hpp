@@ -5,16 +5,16 @@
 
 namespace window_ingress::navigation {
 
-inline NavigatorReport reportOn(const Situation& situation, const MissionState& memory,
+inline NavigatorReport reportOn(const Situation& situation, const MissionState& mission,
                                 const NavigatorParams& params) {
   NavigatorReport report;
-  report.predicted_miss_m = memory.predicted_miss_m;
-  report.blind_sec = memory.blind_sec;
-  report.retries = memory.back_offs;
-  report.window_id = memory.trusted ? memory.trusted->window_id : 0;
-  report.given_up = memory.given_up;
+  report.predicted_miss_m = mission.predicted_miss_m;
+  report.blind_sec = mission.blind_sec;
+  report.retries = mission.back_offs;
+  report.window_id = mission.trusted ? mission.trusted->window_id : 0;
+  report.given_up = mission.given_up;
   report.next_window = params.search.next_window;
-  const auto& target = memory.committed ? memory.committed : situation.target;
+  const auto& target = mission.committed ? mission.committed : situation.target;
   if (!target || !situation.vehicle) return report;
   const RelativeState relative = relate(*situation.vehicle, *target);
   report.has_relative = true;

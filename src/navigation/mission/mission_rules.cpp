@@ -74,21 +74,21 @@ std::string missingInput(State state, const Situation& situation) {
 }
 
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionState& memory) {
+                          const MissionState& mission) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
   const bool is_left = state == State::kHold || state == State::kBackOff;
-  if (is_left && wasLeftForGood(target, memory)) return "a window given up before";
-  if (!memory.trusted) {
-    return is_left && isKnownOther(target, vehicle, memory) ? "a window known not to be the target" : "";
+  if (is_left && wasLeftForGood(target, mission)) return "a window given up before";
+  if (!mission.trusted) {
+    return is_left && isKnownOther(target, vehicle, mission) ? "a window known not to be the target" : "";
   }
   const double shift_m =
-      (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
+      (target.T_odom_window.translation() - mission.trusted->T_odom_window.translation()).norm();
   if (shift_m <= kMaxShiftM) return "";
   return formatted("another window, %.1f m from the one flown at", shift_m);
 }
 
-bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params) {
-  return memory.back_offs <= params.max_retries;
+bool hasRetriesLeft(const MissionState& mission, const BackOffParams& params) {
+  return mission.back_offs <= params.max_retries;
 }
 
 std::string goesAstray(double turned_rad) {

@@ -31,10 +31,10 @@ std::string missingInput(State state, const Situation& situation);
 /// Why a state other than COMMIT must not fly at this target: seen from behind, or not the window flown at
 /// before. Empty if there is no reason.
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionState& memory);
+                          const MissionState& mission);
 
 /// Whether the mission may search again after having backed off.
-bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params);
+bool hasRetriesLeft(const MissionState& mission, const BackOffParams& params);
 
 /// Text for the operator: the vehicle's motion is turned against its setpoints.
 std::string goesAstray(double turned_rad);

@@ -29,16 +29,16 @@ std::string whyClosed(const TargetEstimate& target) {
   return is_closed ? "the opening is closed: " + target.openness.reason : "";
 }
 
-std::string whyNotEntered(const TargetEstimate& target, const MissionState& memory,
+std::string whyNotEntered(const TargetEstimate& target, const MissionState& mission,
                           const CommitParams& params) {
   const std::string closed = whyClosed(target);
-  if (!closed.empty() || memory.opening_confirmed) return closed;
+  if (!closed.empty() || mission.opening_confirmed) return closed;
   const std::string doubt = doubtAbout(target, params);
-  return isToBeAsked(target, memory, params) ? "is it open? If so, call ~confirm_opening; " + doubt : doubt;
+  return isToBeAsked(target, mission, params) ? "is it open? If so, call ~confirm_opening; " + doubt : doubt;
 }
 
-bool isToBeAsked(const TargetEstimate& target, const MissionState& memory, const CommitParams& params) {
-  return !memory.opening_confirmed && whyClosed(target).empty() && !doubtAbout(target, params).empty() &&
+bool isToBeAsked(const TargetEstimate& target, const MissionState& mission, const CommitParams& params) {
+  return !mission.opening_confirmed && whyClosed(target).empty() && !doubtAbout(target, params).empty() &&
          asksAbout(target, params);
 }
 
@@ -58,11 +58,11 @@ std::string whatIsAssumed(const CommitParams& params) {
                       : "; will ask for ~confirm_opening if it is not seen to be open");
 }
 
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& memory) {
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& mission) {
   const auto& target = *situation.target;
   const std::string why = whyClosed(target);
   if (why.empty()) return std::nullopt;
-  memory.giveUpWindow(target);
+  mission.giveUpWindow(target);
   return Decision{{}, true, Event::kOtherWindow, why};
 }
 

@@ -17,11 +17,11 @@ std::string whyClosed(const TargetEstimate& target);
 /// Why the vehicle may not enter yet; empty if it may. The opening is closed; or the operator has not
 /// confirmed it, and it was not seen to be open (unless `commit/unverified_opening` allows that) or may be
 /// glazed (unless `commit/glass` excludes that: no sensor can).
-std::string whyNotEntered(const TargetEstimate& target, const MissionState& memory,
+std::string whyNotEntered(const TargetEstimate& target, const MissionState& mission,
                           const CommitParams& params);
 
 /// Whether the operator's confirmation would permit entry.
-bool isToBeAsked(const TargetEstimate& target, const MissionState& memory, const CommitParams& params);
+bool isToBeAsked(const TargetEstimate& target, const MissionState& mission, const CommitParams& params);
 
 /// How long to wait at the commit line [s]: for the operator's answer, or for a view behind the opening.
 double waitAtLineSec(const TargetEstimate& target, const CommitParams& params);
@@ -30,7 +30,7 @@ double waitAtLineSec(const TargetEstimate& target, const CommitParams& params);
 std::string whatIsAssumed(const CommitParams& params);
 
 /// If the target was seen to be closed: remembers its place and leaves it for good.
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& memory);
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& mission);
 
 /// Lateral offset from the window's axis after this waiting time [m], to see more of what is behind the
 /// opening: first to one side, then to the other.

@@ -8,14 +8,14 @@
 namespace window_ingress::navigation {
 
 /// The target is at the place of a window that was left for good.
-bool wasLeftForGood(const TargetEstimate& target, const MissionState& memory);
+bool wasLeftForGood(const TargetEstimate& target, const MissionState& mission);
 
 /// Why the mission leaves the window flown at: the operator or the facade has chosen another target. Empty if
 /// there is no reason, and always in COMMIT.
-std::string whySentElsewhere(const Situation& situation, State state, const MissionState& memory);
+std::string whySentElsewhere(const Situation& situation, State state, const MissionState& mission);
 
 /// If all tries at a window have failed and `search/next_window` is set: gives up this window and searches
 /// for the next instead of ending the mission.
-void turnToNextWindow(State state, const NavigatorParams& params, MissionState& memory, Decision& decision);
+void turnToNextWindow(State state, const NavigatorParams& params, MissionState& mission, Decision& decision);
 
 }  // namespace window_ingress::navigation

@@ -17,9 +17,9 @@ Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEsti
 
 /// Any vertical velocity; horizontally only back to the kept place.
 Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situation& situation,
-                                   const MissionState& memory, const NavigatorParams& params) {
+                                   const MissionState& mission, const NavigatorParams& params) {
   Eigen::Vector3d permitted =
-      onlyToPlace({velocity.x(), velocity.y(), 0.0}, *situation.vehicle, memory, params.hold);
+      onlyToPlace({velocity.x(), velocity.y(), 0.0}, *situation.vehicle, mission, params.hold);
   permitted.z() = velocity.z();
   return permitted;
 }
@@ -48,12 +48,12 @@ Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& s
 }
 
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
-                                      const Situation& situation, const MissionState& memory,
+                                      const Situation& situation, const MissionState& mission,
                                       const NavigatorParams& params) {
   const auto& target = *situation.target;
-  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, params);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, mission, params);
   const double distance_m = relate(*situation.vehicle, target).distance();
-  if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, memory, params);
+  if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, mission, params);
   const bool before_line = distance_m > criterion.commit_distance_m;
   const bool may_advance = state == State::kApproach && target.approach_forbidden.empty() &&
                            (criterion.holds || (before_line && criterion.in_funnel));
@@ -62,32 +62,32 @@ Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State sta
 }
 
 Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,
-                                   const MissionState& memory, const NavigatorParams& params) {
-  if (!memory.trusted) return Eigen::Vector3d::Zero();
+                                   const MissionState& mission, const NavigatorParams& params) {
+  if (!mission.trusted) return Eigen::Vector3d::Zero();
   const bool in_reveal =
-      relate(*situation.vehicle, *memory.trusted).distance() < params.vehicle.half_length_m;
-  return in_reveal ? awayAndToAxis(velocity, *situation.vehicle, *memory.trusted)
-                   : withoutForward(velocity, *memory.trusted);
+      relate(*situation.vehicle, *mission.trusted).distance() < params.vehicle.half_length_m;
+  return in_reveal ? awayAndToAxis(velocity, *situation.vehicle, *mission.trusted)
+                   : withoutForward(velocity, *mission.trusted);
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
-                                 const MissionState& memory, const NavigatorParams& params) {
+                                 const MissionState& mission, const NavigatorParams& params) {
   const auto& target = situation.target;
   const bool is_trusted = target && target->sign_trusted;
   switch (state) {
     case State::kSearch:
-      return verticalAndToPlace(velocity, situation, memory, params);
+      return verticalAndToPlace(velocity, situation, mission, params);
     case State::kAlign:
     case State::kApproach:
-      if (!is_trusted) return verticalAndToPlace(velocity, situation, memory, params);
-      return permittedBeforeWindow(velocity, state, situation, memory, params);
+      if (!is_trusted) return verticalAndToPlace(velocity, situation, mission, params);
+      return permittedBeforeWindow(velocity, state, situation, mission, params);
     case State::kCommit:
-      return memory.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      return mission.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case State::kBackOff:
-      return permittedBackwards(velocity, situation, memory, params);
+      return permittedBackwards(velocity, situation, mission, params);
     case State::kHold:
     case State::kPassed:
-      return onlyToPlace(velocity, *situation.vehicle, memory, params.hold);
+      return onlyToPlace(velocity, *situation.vehicle, mission, params.hold);
     case State::kIdle:
     case State::kAborted:
       break;
@@ -103,9 +103,9 @@ double withinHeights(double climb_mps, double height_m, const NavigatorParams& p
 
 /// Limits the outward speed so that the vehicle can stop at the fence.
 Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector3d& position_m,
-                            const MissionState& memory, const NavigatorParams& params) {
-  if (!memory.home_odom_m) return velocity;
-  Eigen::Vector3d outward = position_m - *memory.home_odom_m;
+                            const MissionState& mission, const NavigatorParams& params) {
+  if (!mission.home_odom_m) return velocity;
+  Eigen::Vector3d outward = position_m - *mission.home_odom_m;
   outward.z() = 0.0;
   const double away_m = outward.norm();
   if (away_m < 1e-6) return velocity;
@@ -117,13 +117,13 @@ Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector
 }  // namespace
 
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
-                                  const Situation& situation, const MissionState& memory,
+                                  const Situation& situation, const MissionState& mission,
                                   const NavigatorParams& params) {
   if (!situation.vehicle) return Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, memory, params);
+  Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, mission, params);
   const Eigen::Vector3d position_m = situation.vehicle->T_odom_base.translation();
   velocity.z() = withinHeights(velocity.z(), position_m.z(), params);
-  return withinFence(velocity, position_m, memory, params);
+  return withinFence(velocity, position_m, mission, params);
 }
 
 }  // namespace window_ingress::navigation

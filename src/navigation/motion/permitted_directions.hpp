@@ -19,7 +19,7 @@ namespace window_ingress::navigation {
 /// - all states: height limits and fence, with room to stop
 /// - "back to the kept place" never leads towards a window in front
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
-                                  const Situation& situation, const MissionState& memory,
+                                  const Situation& situation, const MissionState& mission,
                                   const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

@@ -25,13 +25,13 @@ Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool wi
 }
 
 TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
-  MissionState memory;
+  MissionState mission;
   const NavigatorParams params = test::withoutGlass();
   Search search{params, true};
   double yaw = 0.0, height = 1.5, turned = 0.0;
   Decision decision;
   while (!decision.event) {
-    decision = search.step(situationAt({-4, 1, height}, 0.0, false, yaw), memory);
+    decision = search.step(situationAt({-4, 1, height}, 0.0, false, yaw), mission);
     ASSERT_EQ(decision.wish.velocity_odom_mps.head<2>().norm(), 0.0);
     ASSERT_LE(std::abs(decision.wish.velocity_odom_mps.z()), params.search.climb_speed_mps + 1e-12);
     yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
@@ -44,47 +44,47 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
 }
 
 TEST(SearchBehaviour, DoesNotClimbWhereItsPlaceIsUncertain) {
-  MissionState memory;
-  memory.odometry_shift_m = 0.5;
+  MissionState mission;
+  mission.odometry_shift_m = 0.5;
   const NavigatorParams params = test::withoutGlass();
   Search search{params, true};
   double yaw = 0.0;
   for (Decision decision; !decision.event;) {
-    decision = search.step(situationAt({-4, 1, 1.5}, 0.0, false, yaw), memory);
+    decision = search.step(situationAt({-4, 1, 1.5}, 0.0, false, yaw), mission);
     EXPECT_EQ(decision.wish.velocity_odom_mps.z(), 0.0);
     yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
   }
 }
 
 TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
-  MissionState memory;
+  MissionState mission;
   NavigatorParams params = test::withoutGlass();
   params.search.height_m = 3.0;
   Search search{params, false};
-  EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), mission).wish.velocity_odom_mps.z(), 0.0);
   search = Search(params, true);
-  EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
+  EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), mission).wish.velocity_odom_mps.z(), 0.0);
   search = Search(params, true);
-  EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), mission).wish.velocity_odom_mps.z(), 0.0);
 }
 
 TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
-  MissionState memory;
+  MissionState mission;
   for (const double yaw : {-1.0, 1.0}) {
-    memory.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
+    mission.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
     Search search{kDefaults, false};
-    const auto decision = search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
+    const auto decision = search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), mission);
     EXPECT_LT(decision.wish.yaw_rate_radps * yaw, 0.0);
   }
 }
 
 TEST(SearchBehaviour, OneImageIsNoWindow) {
-  MissionState memory;
+  MissionState mission;
   Search search{kDefaults, true};
-  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), memory).event);
-  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), memory).event);
-  for (int i = 0; i < 2; ++i) EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), memory).event);
-  EXPECT_EQ(search.step(situationAt({-4, 0, 1.5}, 0.3, true), memory).event, Event::kWindowFound);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), mission).event);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), mission).event);
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), mission).event);
+  EXPECT_EQ(search.step(situationAt({-4, 0, 1.5}, 0.3, true), mission).event, Event::kWindowFound);
 }
 
 TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
@@ -124,13 +124,13 @@ TEST(HeightProbe, AtALimitOfTheHeightGoesTheOtherWay) {
 
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   Align align{kDefaults, 0.0};
-  MissionState memory;
+  MissionState mission;
   bool climbed = false, gave_up = false;
   double height_m = 0.0;
   for (double now = 0.0; now < 60.0 && !gave_up; now += 0.05) {
     auto situation = situationAt({-3.0, 0.0, height_m}, now, true);
     situation.target->approach_forbidden = "twist looks like world frame";
-    const Decision decision = align.step(situation, memory);
+    const Decision decision = align.step(situation, mission);
     EXPECT_NE(decision.event, Event::kAligned);
     gave_up = decision.event == Event::kGiveUp;
     EXPECT_TRUE(!gave_up || decision.reason.find("world frame") != std::string::npos);
@@ -143,13 +143,13 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
 
 TEST(AlignBehaviour, AProbeThatBeginsAnewStaysAroundTheAxis) {
   Align align{kDefaults, 0.0};
-  MissionState memory;
+  MissionState mission;
   constexpr double kAxisM = 1.5;
   double height_m = kAxisM, highest_m = height_m, lowest_m = height_m;
   for (int i = 0; i < 2000; ++i) {
     auto situation = situationAt({-3.0, 0.0, height_m}, 0.05 * i, true);
     if (i % 35 > 0) situation.target->approach_forbidden = "size not known";
-    height_m += 0.05 * align.step(situation, memory).wish.velocity_odom_mps.z();
+    height_m += 0.05 * align.step(situation, mission).wish.velocity_odom_mps.z();
     highest_m = std::max(highest_m, height_m), lowest_m = std::min(lowest_m, height_m);
   }
   EXPECT_GT(highest_m, kAxisM + 0.3);
@@ -160,9 +160,9 @@ TEST(AlignBehaviour, AProbeThatBeginsAnewStaysAroundTheAxis) {
 TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
   for (const double lateral_m : {0.0, 1.0}) {
     Align align{kDefaults, 0.0};
-    MissionState memory;
+    MissionState mission;
     const double forward_mps =
-        align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), memory).wish.velocity_odom_mps.x();
+        align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), mission).wish.velocity_odom_mps.x();
     EXPECT_EQ(forward_mps<-0.1, lateral_m> 0.0) << forward_mps;
   }
 }
@@ -188,11 +188,11 @@ TEST(VelocityTowards, AsksForNoHarderBrakingThanTheVehicleHas) {
 
 TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   Approach approach{kDefaults};
-  MissionState memory;
+  MissionState mission;
   auto situation = situationAt({-3.0, 0.0, 0.0}, 1.0, true);
-  EXPECT_NE(approach.step(situation, memory).event, Event::kMisaligned);
+  EXPECT_NE(approach.step(situation, mission).event, Event::kMisaligned);
   situation.target->approach_forbidden = "fit NO_GO: width 0.50 m";
-  const Decision decision = approach.step(situation, memory);
+  const Decision decision = approach.step(situation, mission);
   EXPECT_EQ(decision.event, Event::kMisaligned);
   EXPECT_EQ(decision.wish.velocity_odom_mps, Eigen::Vector3d(0, 0, 0));
   EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
@@ -200,71 +200,71 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
 
 TEST(ApproachBehaviour, WaitsAtTheLineForWhatIsUnverifiedAndBacksOff) {
   Approach approach{kDefaults};
-  MissionState memory;
+  MissionState mission;
   Decision decision;
   double now_sec = 10.0;
   for (; !decision.event && now_sec < 20.0; now_sec += 0.03) {
     Situation situation = situationAt({-0.8, 0, 1.5}, now_sec, true);
     situation.target->unverified = "camera mounting: a turn of 9 deg cannot be excluded yet";
-    decision = approach.step(situation, memory);
+    decision = approach.step(situation, mission);
     EXPECT_EQ(decision.reason, situation.target->unverified);
   }
   EXPECT_EQ(decision.event, Event::kContractUnmet);
   EXPECT_NEAR(now_sec - 10.0, kDefaults.approach.patience_sec, 0.1);
-  EXPECT_NE(memory.unmet.find("camera mounting"), std::string::npos) << "what is said where it gives up";
+  EXPECT_NE(mission.unmet.find("camera mounting"), std::string::npos) << "what is said where it gives up";
 }
 
 TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
   Approach approach{kDefaults};
-  MissionState memory;
-  const Decision beside = approach.step(situationAt({-0.8, 0.5, 1.5}, 1.0, true), memory);
+  MissionState mission;
+  const Decision beside = approach.step(situationAt({-0.8, 0.5, 1.5}, 1.0, true), mission);
   EXPECT_LT(beside.wish.velocity_odom_mps.x(), -0.3);
-  const Decision before_it = approach.step(situationAt({-0.8, 0.0, 1.5}, 1.0, true), memory);
+  const Decision before_it = approach.step(situationAt({-0.8, 0.0, 1.5}, 1.0, true), mission);
   EXPECT_EQ(before_it.event, Event::kCommitReached);
 }
 
 TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
-  MissionState memory;
+  MissionState mission;
   Align align{kDefaults, 0.0};
   auto situation = situationAt({-5.0, 0.0, 1.5}, 0.0, true);
   situation.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 2.0, 1.5);
-  memory.trusted = situation.target;
-  memory.window_odom_m = situation.target->T_odom_window.translation();
-  EXPECT_NE(align.step(situation, memory).event, Event::kOtherWindow);
+  mission.trusted = situation.target;
+  mission.window_odom_m = situation.target->T_odom_window.translation();
+  EXPECT_NE(align.step(situation, mission).event, Event::kOtherWindow);
   situation.target->other_window = 0.5;
   situation.target->approach_forbidden = "another window: about 0.5 times as large";
-  const Decision decision = align.step(situation, memory);
+  const Decision decision = align.step(situation, mission);
   EXPECT_EQ(decision.event, Event::kOtherWindow);
   EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
   EXPECT_NE(decision.reason.find("0.5 times"), std::string::npos);
-  ASSERT_EQ(memory.others_odom_m.size(), 1u);
-  EXPECT_TRUE(memory.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
-  EXPECT_FALSE(memory.trusted || memory.window_odom_m) << "nothing may be flown by it any more";
+  ASSERT_EQ(mission.others_odom_m.size(), 1u);
+  EXPECT_TRUE(mission.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
+  EXPECT_FALSE(mission.trusted || mission.window_odom_m) << "nothing may be flown by it any more";
 
   Search search{kDefaults, false};
   for (int i = 0; i < 10; ++i)
-    EXPECT_FALSE(search.step(situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), memory).event);
+    EXPECT_FALSE(search.step(situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), mission).event);
   auto again = situationAt({-5.0, -1.0, 1.5}, 1.0, true);
   again.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 3.1, 1.5);  // the same one, from elsewhere
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.step(again, memory).event);
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.step(again, mission).event);
   auto right = situationAt({-5.0, -1.0, 1.5}, 2.0, true);
   Decision found;
-  for (int i = 0; i < 3; ++i) found = search.step(right, memory);
+  for (int i = 0; i < 3; ++i) found = search.step(right, mission);
   EXPECT_EQ(found.event, Event::kWindowFound);
 }
 
 TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
-  MissionState memory;
-  memory.others_odom_m.push_back({0.0, 0.0, 1.5});
+  MissionState mission;
+  mission.others_odom_m.push_back({0.0, 0.0, 1.5});
   Search search{kDefaults, false};
   double yaw = 0.0;
-  for (int i = 0; i < 10; ++i) search.step(situationAt({-4, 0, 1.5}, 0.0, true, yaw), memory);
-  EXPECT_EQ(memory.others_odom_m.size(), 1u);
+  for (int i = 0; i < 10; ++i) search.step(situationAt({-4, 0, 1.5}, 0.0, true, yaw), mission);
+  EXPECT_EQ(mission.others_odom_m.size(), 1u);
   for (double turned = 0.0; turned < 2.0 * M_PI + 0.1; turned += 0.05) {
     yaw = geometry::wrapAngle(yaw + 0.05);
-    search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
+    search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), mission);
   }
-  EXPECT_TRUE(memory.others_odom_m.empty());
+  EXPECT_TRUE(mission.others_odom_m.empty());
 }
 
 TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
@@ -295,8 +295,8 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewImages) {
     Search search{params, false};
     auto situation = situationAt({-4, 0, 1.5}, 0.0, false);
     situation.image_period_sec = image_period_sec;
-    MissionState memory;
-    return search.step(situation, memory).wish.yaw_rate_radps;
+    MissionState mission;
+    return search.step(situation, mission).wish.yaw_rate_radps;
   };
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
   EXPECT_DOUBLE_EQ(rateWith(1.0), Search::kMaxTurnPerImage * params.vehicle.horizontal_fov_rad);
@@ -305,45 +305,45 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewImages) {
 }
 
 TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
-  MissionState memory;
-  memory.trusted = test::targetAtOrigin(0.0);
-  memory.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
+  MissionState mission;
+  mission.trusted = test::targetAtOrigin(0.0);
+  mission.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
   BackOff back_off{kDefaults};
-  const auto inside = back_off.step(situationAt({0.05, 0.05, 1.5}, 0.0, false, 0.8), memory);
+  const auto inside = back_off.step(situationAt({0.05, 0.05, 1.5}, 0.0, false, 0.8), mission);
   EXPECT_EQ(inside.wish.yaw_rate_radps, 0.0);
   const Eigen::Vector3d normal(std::cos(0.4), std::sin(0.4), 0.0);
   const Eigen::Vector3d left(-normal.y(), normal.x(), 0.0);
   EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(normal), -kDefaults.back_off.speed_mps, 1e-12);
   const double offset_m = Eigen::Vector3d(0.05, 0.05, 0.0).dot(left);
   EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(left), -kDefaults.align.lateral_gain_hz * offset_m, 1e-12);
-  const auto outside = back_off.step(situationAt({-1.2, -0.35, 1.5}, 0.0, false, 1.2), memory);
+  const auto outside = back_off.step(situationAt({-1.2, -0.35, 1.5}, 0.0, false, 1.2), mission);
   EXPECT_LT(outside.wish.yaw_rate_radps, 0.0);
   EXPECT_NEAR(outside.wish.velocity_odom_mps.dot(normal), -NavigatorParams().back_off.speed_mps, 1e-12);
   EXPECT_LT(outside.wish.velocity_odom_mps.dot(left), -0.1) << "clear of the reveal, back onto the normal";
 }
 
 TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
-  MissionState memory;
-  memory.trusted = test::targetAtOrigin(0.0);
+  MissionState mission;
+  mission.trusted = test::targetAtOrigin(0.0);
   BackOff back_off{kDefaults};
-  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false), memory).event, Event::kBackedOff);
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false), mission).event, Event::kBackedOff);
   EXPECT_FALSE(
-      back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false, 1.0), memory).event);  // not facing it yet
+      back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false, 1.0), mission).event);  // not facing it yet
   for (int i = 0; i < 2; ++i)
-    EXPECT_FALSE(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event);
-  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event, Event::kReacquired);
-  memory.back_offs = BackOffParams().max_retries + 1;
-  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event, Event::kGiveUp);
+    EXPECT_FALSE(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), mission).event);
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), mission).event, Event::kReacquired);
+  mission.back_offs = BackOffParams().max_retries + 1;
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), mission).event, Event::kGiveUp);
 }
 
 TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
-  MissionState memory;
+  MissionState mission;
   BackOff back_off{kDefaults};
-  const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory);
+  const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), mission);
   EXPECT_EQ(decision.event, Event::kBackedOff);
   EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
-  memory.back_offs = BackOffParams().max_retries + 1;
-  EXPECT_EQ(back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory).event, Event::kGiveUp);
+  mission.back_offs = BackOffParams().max_retries + 1;
+  EXPECT_EQ(back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), mission).event, Event::kGiveUp);
 }
 
 // An autopilot that limits the magnitude of its acceleration, in any direction.
@@ -374,12 +374,12 @@ TEST(VelocityAlongAxis, AwayFromTheWindowGoesBeforeSideways) {
 }
 
 TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
-  MissionState memory;
-  memory.committed = test::targetAtOrigin(0.0);
-  memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
+  MissionState mission;
+  mission.committed = test::targetAtOrigin(0.0);
+  mission.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   Commit commit{kDefaults};
   auto at_exit = situationAt({kDefaults.commit.exit_distance_m, 0.0, 1.5}, 0.0, false);
-  const auto decision = commit.step(at_exit, memory);
+  const auto decision = commit.step(at_exit, mission);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
 }
@@ -388,11 +388,11 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
 TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTold) {
   static constexpr double kBesideM = 0.8;  // here no commit criterion holds
   const auto eventAt = [](double distance_m, double told_mps) {
-    MissionState memory;
-    memory.committed = test::targetAtOrigin(0.0);
-    memory.told_odom_mps = {told_mps, 0.0, 0.0};
+    MissionState mission;
+    mission.committed = test::targetAtOrigin(0.0);
+    mission.told_odom_mps = {told_mps, 0.0, 0.0};
     Commit commit{kDefaults};
-    return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
+    return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), mission).event;
   };
   const auto& vehicle = kDefaults.vehicle;
   const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // gained before it responds
@@ -405,8 +405,8 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTol
 // In the last metre a wrong heading comes back and moves the window in odom.
 TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
   for (const double distance_m : {0.8, 2.5}) {
-    MissionState memory;
-    memory.committed = test::targetAtOrigin(0.0);
+    MissionState mission;
+    mission.committed = test::targetAtOrigin(0.0);
     Commit commit{kDefaults};
     Decision decision;
     for (int i = 0; i < 6; ++i) {
@@ -414,11 +414,11 @@ TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
       situation.vehicle->velocity_odom_mps.x() = 0.95;
       if (i > 0) situation.target->T_odom_window.translation().y() += 0.3;
       EXPECT_EQ(decision.event, std::nullopt);
-      decision = commit.step(situation, memory);
+      decision = commit.step(situation, mission);
       const bool turns_back = i >= 3 && distance_m > 2.0;
       EXPECT_EQ(decision.event.has_value(), turns_back) << decision.reason;
       if (turns_back) break;
-      EXPECT_NEAR(memory.committed->T_odom_window.translation().y(), i < 4 ? 0.0 : 0.3, 1e-9);
+      EXPECT_NEAR(mission.committed->T_odom_window.translation().y(), i < 4 ? 0.0 : 0.3, 1e-9);
     }
     EXPECT_EQ(decision.wish.velocity_odom_mps.y() > 0.1, distance_m < 2.0);
   }
@@ -426,49 +426,49 @@ TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
 
 TEST(CommitBehaviour, IsNoFasterThanToldWithTheWindBehindIt) {
   const auto forwardWith = [](double wind_mps) {
-    MissionState memory;
-    memory.committed = test::targetAtOrigin(0.0);
-    memory.wind_odom_mps.x() = wind_mps;
+    MissionState mission;
+    mission.committed = test::targetAtOrigin(0.0);
+    mission.wind_odom_mps.x() = wind_mps;
     Commit commit{kDefaults};
     auto situation = situationAt({-0.5, 0.0, 1.5}, 0.0, false);
     situation.vehicle->velocity_odom_mps.x() = 0.95;
-    return commit.step(situation, memory).wish.velocity_odom_mps.x();
+    return commit.step(situation, mission).wish.velocity_odom_mps.x();
   };
   EXPECT_NEAR(forwardWith(0.3), forwardWith(0.0) - 0.3, 1e-9);
   EXPECT_DOUBLE_EQ(forwardWith(-0.3), forwardWith(0.0)) << "a gust against it may end";
 }
 
 TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
-  MissionState memory;
-  memory.committed = test::targetAtOrigin(0.0);
+  MissionState mission;
+  mission.committed = test::targetAtOrigin(0.0);
   Commit commit{kDefaults};
-  EXPECT_EQ(commit.step(situationAt({1.2, 0.0, 1.5}, 0.0, false), memory).event, Event::kCrossed);
-  const auto blown_back = commit.step(situationAt({0.1, 0.0, 1.5}, 0.1, false), memory);
+  EXPECT_EQ(commit.step(situationAt({1.2, 0.0, 1.5}, 0.0, false), mission).event, Event::kCrossed);
+  const auto blown_back = commit.step(situationAt({0.1, 0.0, 1.5}, 0.1, false), mission);
   EXPECT_FALSE(blown_back.event);
   EXPECT_GT(blown_back.wish.velocity_odom_mps.x(), 0.3);
 }
 
 TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
-  MissionState memory;
-  memory.trusted = test::targetAtOrigin(0.0);
+  MissionState mission;
+  mission.trusted = test::targetAtOrigin(0.0);
   for (const double distance_m : {0.5, 2.0}) {
     Hold hold{kDefaults, State::kApproach};
-    const auto decision = hold.step(situationAt({-distance_m, 0.1, 1.5}, 0.0, false), memory);
+    const auto decision = hold.step(situationAt({-distance_m, 0.1, 1.5}, 0.0, false), mission);
     EXPECT_EQ(decision.event == Event::kWindowLost, distance_m < kDefaults.limits.wall_distance_m);
   }
 }
 
 TEST(HoldBehaviour, NeverRetreatsThroughTheOpening) {
   for (const double behind_m : {-0.5, 0.5}) {
-    MissionState memory;
-    memory.trusted = memory.committed = test::targetAtOrigin(0.0);
+    MissionState mission;
+    mission.trusted = mission.committed = test::targetAtOrigin(0.0);
     Hold hold{kDefaults, State::kCommit};
     std::optional<Event> event;
     for (double now = 0.0; now < 2.0 && !event; now += 0.03) {
       auto situation = situationAt({behind_m, 0, 1.5}, now, false);
       const bool is_gone = std::fmod(now, 0.15) > 0.1;  // often interrupted: nothing can resume
       if (is_gone) situation.vehicle.reset();
-      event = hold.step(situation, memory).event;
+      event = hold.step(situation, mission).event;
     }
     EXPECT_EQ(event == Event::kWindowLost, behind_m < 0.0);
   }
@@ -476,26 +476,26 @@ TEST(HoldBehaviour, NeverRetreatsThroughTheOpening) {
 
 TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyTheImagesAreMissing) {
   for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
-    MissionState memory;
-    memory.trusted = test::targetAtOrigin(0.0);
+    MissionState mission;
+    mission.trusted = test::targetAtOrigin(0.0);
     Hold hold{kDefaults, from};
     std::optional<Event> event;
     for (double now = 0.0; now < 10.0 && !event; now += 0.03) {
       auto situation = situationAt({-1.0, 0, 1.5}, now, false);
       situation.image_fault = "last image 2.00 s old";
-      event = hold.step(situation, memory).event;
+      event = hold.step(situation, mission).event;
     }
     EXPECT_EQ(event, from == State::kSearch ? Event::kGiveUp : Event::kWindowLost) << toString(from);
   }
 }
 
 /// First event of a HOLD that began at 0 s, with constant inputs; empty if there is none within 10 s.
-std::optional<Event> wayOutOf(State from, MissionState memory, bool with_vehicle, bool with_target) {
+std::optional<Event> wayOutOf(State from, MissionState mission, bool with_vehicle, bool with_target) {
   Hold hold{kDefaults, from};
   for (double now = 0.0; now < 10.0; now += 0.03) {
     auto situation = situationAt({-0.8, 0, 1.5}, now, with_target);
     if (!with_vehicle) situation.vehicle.reset();
-    const auto decision = hold.step(situation, memory);
+    const auto decision = hold.step(situation, mission);
     EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
     if (decision.event) return decision.event;
   }

@@ -11,25 +11,25 @@ namespace window_ingress::navigation::home_test {
 
 TEST(Home, IsWhereTheMissionBeganAndStaysThereWhenTheOdometryJumps) {
   Home home;
-  MissionState memory;
-  home.follow(test::vehicleAt({1, 2, 1}, 0.0), memory);
-  home.follow(test::vehicleAt({4, 6, 1}, 1.0), memory);
-  EXPECT_EQ(*memory.home_odom_m, Eigen::Vector3d(1, 2, 1));
+  MissionState mission;
+  home.follow(test::vehicleAt({1, 2, 1}, 0.0), mission);
+  home.follow(test::vehicleAt({4, 6, 1}, 1.0), mission);
+  EXPECT_EQ(*mission.home_odom_m, Eigen::Vector3d(1, 2, 1));
   EXPECT_DOUBLE_EQ(home.awayM(), 5.0);
   home.odometryJumped();
-  home.follow(test::vehicleAt({104, 6, 1}, 2.0), memory);
-  EXPECT_EQ(*memory.home_odom_m, Eigen::Vector3d(101, 2, 1));
+  home.follow(test::vehicleAt({104, 6, 1}, 2.0), mission);
+  EXPECT_EQ(*mission.home_odom_m, Eigen::Vector3d(101, 2, 1));
   EXPECT_DOUBLE_EQ(home.awayM(), 5.0);
 }
 
 TEST(Home, ANewMissionHasANewHome) {
   Home home;
-  MissionState memory;
-  home.follow(test::vehicleAt({1, 2, 1}, 0.0), memory);
-  home.follow(test::vehicleAt({4, 6, 1}, 1.0), memory);
-  memory = MissionState();
-  home.follow(test::vehicleAt({4, 6, 1}, 2.0), memory);
-  EXPECT_EQ(*memory.home_odom_m, Eigen::Vector3d(4, 6, 1));
+  MissionState mission;
+  home.follow(test::vehicleAt({1, 2, 1}, 0.0), mission);
+  home.follow(test::vehicleAt({4, 6, 1}, 1.0), mission);
+  mission = MissionState();
+  home.follow(test::vehicleAt({4, 6, 1}, 2.0), mission);
+  EXPECT_EQ(*mission.home_odom_m, Eigen::Vector3d(4, 6, 1));
   EXPECT_EQ(home.awayM(), 0.0);
 }
 

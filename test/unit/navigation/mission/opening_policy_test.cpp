@@ -22,10 +22,10 @@ NavigatorParams paramsFor(const std::string& unverified_opening, const std::stri
 
 enum class Answer { kEnters, kAsks, kRefuses };
 
-Answer answerTo(Openness verdict, const CommitParams& params, const MissionState& memory = {}) {
+Answer answerTo(Openness verdict, const CommitParams& params, const MissionState& mission = {}) {
   auto target = test::targetAtOrigin(0.0);
   target.openness.openness = verdict;
-  const std::string why_not = whyNotEntered(target, memory, params);
+  const std::string why_not = whyNotEntered(target, mission, params);
   if (why_not.empty()) return Answer::kEnters;
   return why_not.find("confirm_opening") == std::string::npos ? Answer::kRefuses : Answer::kAsks;
 }
@@ -124,24 +124,24 @@ TEST(OpeningPolicy, IsPartOfTheContractAfterItsGeometry) {
 }
 
 TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
-  MissionState memory;
+  MissionState mission;
   Situation situation;
   situation.vehicle = test::vehicleAt({-4, 0, 1.5}, 0.0);
   situation.target = test::targetAtOrigin(0.0);
-  EXPECT_FALSE(leaveClosedOpening(situation, memory));
-  memory.trusted = situation.target;
-  memory.opening_confirmed = true;
+  EXPECT_FALSE(leaveClosedOpening(situation, mission));
+  mission.trusted = situation.target;
+  mission.opening_confirmed = true;
   situation.target->openness.openness = Openness::kClosed;
-  const auto decision = leaveOtherWindow(situation, memory);
+  const auto decision = leaveOtherWindow(situation, mission);
   ASSERT_TRUE(decision);
   EXPECT_EQ(decision->event, Event::kOtherWindow);
-  EXPECT_FALSE(memory.trusted || memory.opening_confirmed);
-  memory.forgetWindow();  // after a full turn
-  EXPECT_TRUE(isKnownOther(*situation.target, *situation.vehicle, memory));
+  EXPECT_FALSE(mission.trusted || mission.opening_confirmed);
+  mission.forgetWindow();  // after a full turn
+  EXPECT_TRUE(isKnownOther(*situation.target, *situation.vehicle, mission));
   situation.target->T_odom_window.translation().y() += 1.0;
-  EXPECT_FALSE(isKnownOther(*situation.target, *situation.vehicle, memory));
-  memory.forgetPlaces();
-  EXPECT_TRUE(memory.left_odom_m.empty()) << "places of an odometry that jumped";
+  EXPECT_FALSE(isKnownOther(*situation.target, *situation.vehicle, mission));
+  mission.forgetPlaces();
+  EXPECT_TRUE(mission.left_odom_m.empty()) << "places of an odometry that jumped";
 }
 
 TEST(OpeningPolicy, LooksToBothSidesWithinTheClearance) {

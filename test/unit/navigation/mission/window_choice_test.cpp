@@ -57,43 +57,43 @@ TEST(WindowChoice, CommitFliesOn) {
   Situation situation;
   situation.target = test::targetAtOrigin(1.0);
   situation.target->window_id = 2;
-  MissionState memory;
-  memory.trusted = test::targetAtOrigin(1.0);
-  memory.trusted->window_id = 1;
-  EXPECT_EQ(whySentElsewhere(situation, State::kCommit, memory), "");
+  MissionState mission;
+  mission.trusted = test::targetAtOrigin(1.0);
+  mission.trusted->window_id = 1;
+  EXPECT_EQ(whySentElsewhere(situation, State::kCommit, mission), "");
   for (const State state : {State::kAlign, State::kApproach, State::kHold, State::kBackOff, State::kSearch})
-    EXPECT_NE(whySentElsewhere(situation, state, memory), "");
+    EXPECT_NE(whySentElsewhere(situation, state, mission), "");
 }
 
 TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
   for (const bool allowed : {false, true}) {
     NavigatorParams params = test::withoutGlass();
     params.search.next_window = allowed;
-    MissionState memory;
-    memory.trusted = test::targetAtOrigin(1.0);
-    memory.trusted->window_id = 7;
-    memory.back_offs = 6;
+    MissionState mission;
+    mission.trusted = test::targetAtOrigin(1.0);
+    mission.trusted->window_id = 7;
+    mission.back_offs = 6;
     Decision decision;
     decision.event = Event::kGiveUp;
-    turnToNextWindow(State::kBackOff, params, memory, decision);
+    turnToNextWindow(State::kBackOff, params, mission, decision);
     EXPECT_EQ(decision.event == Event::kBackedOff, allowed);
-    EXPECT_EQ(memory.given_up.size(), allowed ? 1u : 0u);
-    EXPECT_EQ(memory.back_offs, allowed ? 0 : 6);
-    EXPECT_EQ(wasLeftForGood(test::targetAtOrigin(2.0), memory), allowed);
+    EXPECT_EQ(mission.given_up.size(), allowed ? 1u : 0u);
+    EXPECT_EQ(mission.back_offs, allowed ? 0 : 6);
+    EXPECT_EQ(wasLeftForGood(test::targetAtOrigin(2.0), mission), allowed);
   }
 }
 
 TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
   NavigatorParams params = test::withoutGlass();
   params.search.next_window = true;
-  MissionState memory;
-  memory.trusted = test::targetAtOrigin(1.0);
+  MissionState mission;
+  mission.trusted = test::targetAtOrigin(1.0);
   Decision decision;
   decision.event = Event::kGiveUp;  // a time-out
-  turnToNextWindow(State::kApproach, params, memory, decision);
+  turnToNextWindow(State::kApproach, params, mission, decision);
   EXPECT_EQ(decision.event, Event::kGiveUp);
   decision.event = Event::kReacquired;
-  turnToNextWindow(State::kBackOff, params, memory, decision);
+  turnToNextWindow(State::kBackOff, params, mission, decision);
   EXPECT_EQ(decision.event, Event::kReacquired);
 }
 
