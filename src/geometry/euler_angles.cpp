@@ -9,17 +9,17 @@
 namespace window_ingress::geometry {
 
 EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation) {
-  const double cos_phi = std::hypot(rotation(2, 1), rotation(2, 2));
-  const double phi = std::atan2(-rotation(2, 0), cos_phi);
-  if (cos_phi < 1e-9) return {0.0, phi, std::atan2(-rotation(0, 1), rotation(1, 1))};
-  return {std::atan2(rotation(2, 1), rotation(2, 2)), phi, std::atan2(rotation(1, 0), rotation(0, 0))};
+  const double cos_pitch = std::hypot(rotation(2, 1), rotation(2, 2));
+  const double pitch_rad = std::atan2(-rotation(2, 0), cos_pitch);
+  if (cos_pitch < 1e-9) return {0.0, pitch_rad, std::atan2(-rotation(0, 1), rotation(1, 1))};
+  return {std::atan2(rotation(2, 1), rotation(2, 2)), pitch_rad, std::atan2(rotation(1, 0), rotation(0, 0))};
 }
 
 Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles) {
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  return (AngleAxisd(angles.psi_rad, Vector3d::UnitZ()) * AngleAxisd(angles.phi_rad, Vector3d::UnitY()) *
-          AngleAxisd(angles.theta_rad, Vector3d::UnitX()))
+  return (AngleAxisd(angles.yaw_rad, Vector3d::UnitZ()) * AngleAxisd(angles.pitch_rad, Vector3d::UnitY()) *
+          AngleAxisd(angles.roll_rad, Vector3d::UnitX()))
       .toRotationMatrix();
 }
 

@@ -8,22 +8,22 @@ namespace window_ingress::geometry {
 
 inline constexpr double kDegreesPerRad = 180.0 / M_PI;
 
-/// Euler angles of the paper [rad]: theta about x, phi about y, psi about z.
+/// Euler angles [rad]: roll about x, pitch about y, yaw about z of a forward-left-up frame. The paper calls
+/// them theta, phi and psi.
 ///
 /// The paper's matrix product (its eq. 8) contradicts its own angle formulas. They belong to
-/// `R = Rz(psi) * Ry(phi) * Rx(theta)`, which is used here. For a forward-left-up frame the angles are roll,
-/// pitch and yaw.
+/// `R = Rz(yaw) * Ry(pitch) * Rx(roll)`, which is used here.
 struct EulerAngles {
-  double theta_rad = 0.0;
-  double phi_rad = 0.0;
-  double psi_rad = 0.0;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double yaw_rad = 0.0;
 };
 
-/// theta = atan2(r32, r33), phi = atan2(-r31, sqrt(r32^2 + r33^2)), psi = atan2(r21, r11).
-/// phi lies in [-pi/2, pi/2]; at its ends theta and psi are not unique: theta is then 0.
+/// roll = atan2(r32, r33), pitch = atan2(-r31, sqrt(r32^2 + r33^2)), yaw = atan2(r21, r11).
+/// pitch lies in [-pi/2, pi/2]; at its ends roll and yaw are not unique: roll is then 0.
 EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation);
 
-/// Rz(psi) * Ry(phi) * Rx(theta).
+/// Rz(yaw) * Ry(pitch) * Rx(roll).
 Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles);
 
 /// The relative yaw for people, in degrees: "yaw +12.3 +-0.4 deg", followed by "sign unknown" if the sign is

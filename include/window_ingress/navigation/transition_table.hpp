@@ -12,24 +12,24 @@ enum class State { kIdle, kSearch, kAlign, kApproach, kCommit, kPassed, kBackOff
 inline constexpr std::size_t kStateCount = 9;
 
 enum class Event {
-  kStart,          ///< the operator asks for the flight and all start conditions hold
-  kWindowFound,    ///< the target was seen often enough
-  kAligned,        ///< normal trusted and the vehicle within the funnel
-  kMisaligned,     ///< out of the funnel, or the normal no longer trusted
-  kCommitReached,  ///< the window is about to leave the view and the commit criterion holds
-  kContractUnmet,  ///< close to the window, and the predicted miss exceeds the clearance
-  kCrossed,        ///< behind the window, standing still
-  kOtherWindow,    ///< the flight has shown that this is another window, or that it is closed
-  kWindowLost,     ///< not seen for long, but its normal is known
-  kBackedOff,      ///< far enough away, the window still not in view
-  kReacquired,     ///< seen again
-  kResumed,        ///< inputs are back during a commit whose criterion still holds
-  kInputStale,     ///< an input that this state needs is old, missing, not finite or has jumped
-  kInputFresh,     ///< inputs are back, no window known
-  kGiveUp,         ///< time-out, retries used up, nothing left to search, opening too small
-  kDisengaged,     ///< pilot or autopilot took the vehicle over
-  kAbort,          ///< the operator asks for the end
-  kReset           ///< the operator acknowledges the end
+  kStart,           ///< the operator asks for the flight and all start conditions hold
+  kWindowFound,     ///< the target was seen often enough
+  kAligned,         ///< normal trusted and the vehicle within the funnel
+  kMisaligned,      ///< out of the funnel, or the normal no longer trusted
+  kCommitReached,   ///< the window is about to leave the view and the commit criterion holds
+  kCriterionUnmet,  ///< close to the window, and the predicted miss exceeds the clearance
+  kCrossed,         ///< behind the window, standing still
+  kOtherWindow,     ///< the flight has shown that this is another window, or that it is closed
+  kWindowLost,      ///< not seen for long, but its normal is known
+  kBackedOff,       ///< far enough away, the window still not in view
+  kReacquired,      ///< seen again
+  kResumed,         ///< inputs are back during a commit whose criterion still holds
+  kInputStale,      ///< an input that this state needs is old, missing, not finite or has jumped
+  kInputFresh,      ///< inputs are back, no window known
+  kGiveUp,          ///< time-out, retries used up, nothing left to search, opening too small
+  kDisengaged,      ///< pilot or autopilot took the vehicle over
+  kAbort,           ///< the operator asks for the end
+  kReset            ///< the operator acknowledges the end
 };
 inline constexpr std::size_t kEventCount = 18;
 
@@ -62,14 +62,14 @@ inline constexpr std::array kTransitions = {
     Transition{State::kApproach, Event::kCommitReached, State::kCommit},
     Transition{State::kApproach, Event::kMisaligned, State::kAlign},
     Transition{State::kApproach, Event::kOtherWindow, State::kSearch},
-    Transition{State::kApproach, Event::kContractUnmet, State::kBackOff},
+    Transition{State::kApproach, Event::kCriterionUnmet, State::kBackOff},
     Transition{State::kApproach, Event::kInputStale, State::kHold},
     Transition{State::kApproach, Event::kGiveUp, State::kAborted},
     Transition{State::kApproach, Event::kDisengaged, State::kIdle},
     Transition{State::kApproach, Event::kAbort, State::kAborted},
 
     Transition{State::kCommit, Event::kCrossed, State::kPassed},
-    Transition{State::kCommit, Event::kContractUnmet, State::kBackOff},
+    Transition{State::kCommit, Event::kCriterionUnmet, State::kBackOff},
     Transition{State::kCommit, Event::kInputStale, State::kHold},
     Transition{State::kCommit, Event::kGiveUp, State::kAborted},
     Transition{State::kCommit, Event::kDisengaged, State::kIdle},

@@ -101,7 +101,7 @@ std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pos
   if (!pose) return std::string(kPoseDetails, ',');
   std::string values = formatted(",%.6f,%.6f,%d", pose->yaw_rad, pose->sigma_u_rad, pose->sign_trusted);
   for (const double value :
-       {pose->euler.theta_rad, pose->euler.phi_rad, pose->euler.psi_rad, pose->opening_width_m,
+       {pose->euler.roll_rad, pose->euler.pitch_rad, pose->euler.yaw_rad, pose->opening_width_m,
         pose->opening_height_m, pose->left_side_px, pose->right_side_px})
     values += "," + formatted("%.6f", value);
   return values;

@@ -23,9 +23,9 @@ window_ingress::RelativeYaw relativeYawMsg(const estimation::WindowPoseEstimate&
 
 window_ingress::EulerAngles toMsg(const geometry::EulerAngles& angles) {
   window_ingress::EulerAngles message;
-  message.roll = angles.theta_rad;
-  message.pitch = angles.phi_rad;
-  message.yaw = angles.psi_rad;
+  message.roll = angles.roll_rad;
+  message.pitch = angles.pitch_rad;
+  message.yaw = angles.yaw_rad;
   return message;
 }
 

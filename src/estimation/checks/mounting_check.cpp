@@ -111,7 +111,7 @@ struct MountingCheck::Setup {
     if (turn.isApprox(geometry::R_optical_flu().transpose(), 0.2))
       return "camera frame looks like body axes (x forward), not optical ones (z forward)";
     const auto euler = geometry::eulerFromRotation(R_base_camera * turn * R_base_camera.transpose());
-    return turnText({euler.theta_rad, euler.phi_rad, euler.psi_rad});
+    return turnText({euler.roll_rad, euler.pitch_rad, euler.yaw_rad});
   }
 };
 

@@ -82,10 +82,10 @@ std::optional<Event> Approach::judge(const CommitCriterion& criterion, const Rel
       at_line || (looks_ && relative.distance() <= criterion.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
   looks_ = waits && (looks_ || criterion.opening_unverified);
-  if (waiting_sec > patienceSec(*situation.target)) return Event::kContractUnmet;
+  if (waiting_sec > patienceSec(*situation.target)) return Event::kCriterionUnmet;
   if (outside_sec > kLeaveSec) {
     reason = "out of the funnel: " + criterion.unmet;
-    return at_line ? Event::kContractUnmet : Event::kMisaligned;
+    return at_line ? Event::kCriterionUnmet : Event::kMisaligned;
   }
   return std::nullopt;
 }

@@ -87,17 +87,17 @@ Decision Commit::step(const Situation& situation, MissionState& mission) {
 
 void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const {
   if (isBroken(criterion, *params_)) {
-    decision.event = Event::kContractUnmet;
+    decision.event = Event::kCriterionUnmet;
     decision.reason = "turning back: " + criterion.unmet;
   } else if (disagreements_ >= kInARow) {
-    decision.event = Event::kContractUnmet;
+    decision.event = Event::kCriterionUnmet;
     decision.reason =
         formatted("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
   } else if (forbidden_ >= kInARow) {
-    decision.event = Event::kContractUnmet;
+    decision.event = Event::kCriterionUnmet;
     decision.reason = "turning back: " + why_forbidden_;
   } else if (blind_sec > params_->commit.max_blind_sec) {
-    decision.event = Event::kContractUnmet;
+    decision.event = Event::kCriterionUnmet;
     decision.reason = formatted("turning back: window not seen for %.2f s", blind_sec);
   }
 }

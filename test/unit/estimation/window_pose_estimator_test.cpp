@@ -74,9 +74,9 @@ TEST(WindowPoseEstimator, DescribesTheViewAsThePaperDoes) {
   const auto turned_left =
       estimator.estimate(cornersSeen(camera(), view(3.0, 0.5), 0.1), camera()).estimate.value();
   EXPECT_NEAR(turned_left.yaw_rad, 0.5, 1e-6);
-  EXPECT_NEAR(turned_left.euler.psi_rad, 0.5, 1e-6);
-  EXPECT_NEAR(turned_left.euler.theta_rad, 0.0, 1e-6);
-  EXPECT_NEAR(turned_left.euler.phi_rad, 0.0, 1e-6);
+  EXPECT_NEAR(turned_left.euler.yaw_rad, 0.5, 1e-6);
+  EXPECT_NEAR(turned_left.euler.roll_rad, 0.0, 1e-6);
+  EXPECT_NEAR(turned_left.euler.pitch_rad, 0.0, 1e-6);
   EXPECT_GT(turned_left.left_side_px, turned_left.right_side_px);
   EXPECT_TRUE(turned_left.sign_trusted);
   const auto square =

@@ -13,9 +13,9 @@ TEST(EulerAngles, RoundTripOfRandomAngles) {
   for (int i = 0; i < 10000; ++i) {
     const EulerAngles in{full(random), half(random), full(random)};
     const EulerAngles out = eulerFromRotation(rotationFromEuler(in));
-    EXPECT_NEAR(out.theta_rad, in.theta_rad, 1e-9);
-    EXPECT_NEAR(out.phi_rad, in.phi_rad, 1e-9);
-    EXPECT_NEAR(out.psi_rad, in.psi_rad, 1e-9);
+    EXPECT_NEAR(out.roll_rad, in.roll_rad, 1e-9);
+    EXPECT_NEAR(out.pitch_rad, in.pitch_rad, 1e-9);
+    EXPECT_NEAR(out.yaw_rad, in.yaw_rad, 1e-9);
   }
 }
 

@@ -209,7 +209,7 @@ TEST(ApproachBehaviour, WaitsAtTheLineForWhatIsUnverifiedAndBacksOff) {
     decision = approach.step(situation, mission);
     EXPECT_EQ(decision.reason, situation.target->unverified);
   }
-  EXPECT_EQ(decision.event, Event::kContractUnmet);
+  EXPECT_EQ(decision.event, Event::kCriterionUnmet);
   EXPECT_NEAR(now_sec - 10.0, kDefaults.approach.patience_sec, 0.1);
   EXPECT_NE(mission.unmet.find("camera mounting"), std::string::npos) << "what is said where it gives up";
 }
@@ -397,9 +397,9 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTol
   const auto& vehicle = kDefaults.vehicle;
   const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // gained before it responds
   const double needed_m = vehicle.half_length_m + stoppingDistance(gained_mps, vehicle);
-  EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
+  EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kCriterionUnmet);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
-  EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);
+  EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kCriterionUnmet);
 }
 
 // In the last metre a wrong heading comes back and moves the window in odom.
