@@ -127,45 +127,45 @@ void InputMonitor::judgeClock(double now_sec, Situation& situation) {
 }
 
 void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situation) {
-  if (!input.vehicle) {
-    situation.vehicle_fault = "no odometry";
-    return;
-  }
-  situation.vehicle_fault = faultOf(*input.vehicle);
+  situation.vehicle_fault = input.vehicle ? faultOf(*input.vehicle) : "no odometry";
+  if (situation.vehicle_fault.empty() && situation.vehicle_jumped)
+    situation.vehicle_fault = "the clock jumped back";
   if (!situation.vehicle_fault.empty()) return;
-  if (situation.vehicle_jumped) situation.vehicle_fault = "the clock jumped back";
-  if (situation.vehicle_jumped) return;
   const bool is_newer = !vehicle_ || input.vehicle->stamp_sec > vehicle_->stamp_sec;
   const VehicleState sample = is_newer ? *input.vehicle : *vehicle_;
-  situation.vehicle_fault = ageFault("odometry", sample.stamp_sec, situation.now_sec,
-                                     params_.max_vehicle_age_sec, params_.max_future_sec);
+  situation.vehicle_fault = takeSample(sample, is_newer, situation.now_sec);
   if (!situation.vehicle_fault.empty()) return;
-  if (is_newer) arrived_sec_ = situation.now_sec;
-  const double missing_sec = situation.now_sec - arrived_sec_;
-  if (missing_sec > kMissingSec) {
-    situation.vehicle_fault = formatted("odometry: none for %.2f s", missing_sec);
-    return;
-  }
-  if (is_newer && isStuck(sample)) {
-    vehicle_ = sample;
-    const double for_sec = sample.stamp_sec - unchanged_since_sec_;
-    situation.vehicle_fault = formatted("odometry stuck for %.2f s", for_sec);
-    return;
-  }
-  vehicle_ = sample;
   if (is_newer) smooth_ = odometry_.add(sample);
-  if (!smooth_) {
-    situation.vehicle_fault = "odometry continued at another place after a gap";
-    situation.vehicle_jumped = true;
-    not_before_sec_ = sample.stamp_sec;
-    target_.reset();
-    moved_target_.reset();
+  if (smooth_) {
+    situation.vehicle = predictedVehicle(situation.now_sec);
     return;
   }
-  situation.vehicle = smooth_;
-  situation.vehicle->velocity_odom_mps = odometry_.unbiased(*smooth_);
-  const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
-  situation.vehicle->T_odom_base.translation() += situation.vehicle->velocity_odom_mps * ahead_sec;
+  situation.vehicle_fault = "odometry continued at another place after a gap";
+  situation.vehicle_jumped = true;
+  not_before_sec_ = sample.stamp_sec;
+  target_.reset();
+  moved_target_.reset();
+}
+
+std::string InputMonitor::takeSample(const VehicleState& sample, bool is_newer, double now_sec) {
+  const std::string age =
+      ageFault("odometry", sample.stamp_sec, now_sec, params_.max_vehicle_age_sec, params_.max_future_sec);
+  if (!age.empty()) return age;
+  if (is_newer) arrived_sec_ = now_sec;
+  const double missing_sec = now_sec - arrived_sec_;
+  if (missing_sec > kMissingSec) return formatted("odometry: none for %.2f s", missing_sec);
+  const bool is_stuck = is_newer && isStuck(sample);
+  vehicle_ = sample;
+  if (is_stuck) return formatted("odometry stuck for %.2f s", sample.stamp_sec - unchanged_since_sec_);
+  return "";
+}
+
+VehicleState InputMonitor::predictedVehicle(double now_sec) const {
+  VehicleState vehicle = *smooth_;
+  vehicle.velocity_odom_mps = odometry_.unbiased(*smooth_);
+  const double ahead_sec = std::max(0.0, now_sec - vehicle_->stamp_sec);
+  vehicle.T_odom_base.translation() += vehicle.velocity_odom_mps * ahead_sec;
+  return vehicle;
 }
 
 void InputMonitor::told(const Setpoint& setpoint, double now_sec) {

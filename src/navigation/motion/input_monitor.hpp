@@ -47,6 +47,9 @@ class InputMonitor {
  private:
   void judgeClock(double now_sec, Situation& situation);
   void judgeVehicle(const NavigatorInput& input, Situation& situation);
+  /// Notes the newest sample. Returns why it cannot be used; empty if it can.
+  std::string takeSample(const VehicleState& sample, bool is_newer, double now_sec);
+  VehicleState predictedVehicle(double now_sec) const;  ///< by `smooth_`, from its stamp to now
   void judgeTarget(const NavigatorInput& input, Situation& situation);
   void judgeImage(const NavigatorInput& input, Situation& situation);
   bool isStuck(const VehicleState& vehicle);
