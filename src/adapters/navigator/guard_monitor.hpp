@@ -8,7 +8,7 @@
 #include <string>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/navigator/engaged_freshness.hpp"
+#include "adapters/navigator/engagement_monitor.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 
@@ -59,7 +59,7 @@ class GuardMonitor {
     if (passesOn()) return {};
     if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
       return {Health::kOk, "no setpoints are sent: nothing to pass on"};
-    if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= EngagedFreshness::kGraceSec)
+    if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= EngagementMonitor::kGraceSec)
       return {Health::kOk, "waiting for " + topic};
     return {Health::kError,
             "nothing on " + topic + " from setpoint_guard: no mission can fly; zeros bypass the guard"};

@@ -18,7 +18,7 @@
 #include "adapters/inputs/clock_watch.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/markers/flight_markers.hpp"
-#include "adapters/navigator/engaged_freshness.hpp"
+#include "adapters/navigator/engagement_monitor.hpp"
 #include "adapters/navigator/guard_monitor.hpp"
 #include "adapters/navigator/mission_action.hpp"
 #include "adapters/navigator/upstream_faults.hpp"
@@ -83,7 +83,7 @@ class NavigatorNode : public Node {
   TopicHealth odom_health_, pose_health_;
   StampGate odom_gate_, pose_gate_;
   estimation::SenderClock odom_clock_;
-  EngagedFreshness engagement_;
+  EngagementMonitor engagement_;
   UpstreamFaults upstream_;
   GuardMonitor guard_;
   ClockWatch clock_;

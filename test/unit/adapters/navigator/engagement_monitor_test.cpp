@@ -1,27 +1,27 @@
-#include "adapters/navigator/engaged_freshness.hpp"
+#include "adapters/navigator/engagement_monitor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-namespace window_ingress::adapters::engaged_freshness_test {
+namespace window_ingress::adapters::engagement_monitor_test {
 
-TEST(EngagedFreshness, IsTakenForGrantedWhereNobodySaysUnlessRequired) {
+TEST(EngagementMonitor, IsTakenForGrantedWhereNobodySaysUnlessRequired) {
   EngagementParams params;
-  EXPECT_TRUE(EngagedFreshness(params).holds(1e6));
+  EXPECT_TRUE(EngagementMonitor(params).holds(1e6));
   params.required = true;
-  const EngagedFreshness required(params);
+  const EngagementMonitor required(params);
   EXPECT_FALSE(required.holds(1e6));
   const Health health = required.health("/engaged", 1e6);
   EXPECT_EQ(health.level, Health::kError);
   EXPECT_NE(health.text.find("/engaged"), std::string::npos);
 }
 
-TEST(EngagedFreshness, AStartIsNoFaultUntilTheOthersHaveHadTheTimeToStart) {
+TEST(EngagementMonitor, AStartIsNoFaultUntilTheOthersHaveHadTheTimeToStart) {
   EngagementParams params;
   params.required = true;
-  const EngagedFreshness engagement(params, 100.0);
+  const EngagementMonitor engagement(params, 100.0);
   const Health early = engagement.health("/engaged", 102.9);
   EXPECT_EQ(early.level, Health::kOk);
   EXPECT_EQ(early.text, "waiting for /engaged");
@@ -29,8 +29,8 @@ TEST(EngagedFreshness, AStartIsNoFaultUntilTheOthersHaveHadTheTimeToStart) {
   EXPECT_EQ(engagement.health("/engaged", 103.1).level, Health::kError);
 }
 
-TEST(EngagedFreshness, OnceHeardOnlyARecentYesIsAYes) {
-  EngagedFreshness engagement{EngagementParams()};
+TEST(EngagementMonitor, OnceHeardOnlyARecentYesIsAYes) {
+  EngagementMonitor engagement{EngagementParams()};
   engagement.hear(true, 10.0);
   EXPECT_TRUE(engagement.holds(10.0));
   EXPECT_TRUE(engagement.holds(13.0));
@@ -44,9 +44,9 @@ TEST(EngagedFreshness, OnceHeardOnlyARecentYesIsAYes) {
   EXPECT_FALSE(engagement.holds(std::numeric_limits<double>::quiet_NaN()));
 }
 
-TEST(EngagedFreshness, NeverHoldsLongerThanTheLastYes) {
+TEST(EngagementMonitor, NeverHoldsLongerThanTheLastYes) {
   EngagementParams params;
-  EngagedFreshness engagement(params);
+  EngagementMonitor engagement(params);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   double now = 0.0, yes = -1e9;
@@ -63,4 +63,4 @@ TEST(EngagedFreshness, NeverHoldsLongerThanTheLastYes) {
   }
 }
 
-}  // namespace window_ingress::adapters::engaged_freshness_test
+}  // namespace window_ingress::adapters::engagement_monitor_test

@@ -12,12 +12,12 @@ using configuration::EngagementParams;
 /// Whether the vehicle is engaged: armed, and in a mode that follows setpoints. Without any message it counts
 /// as engaged, unless `required`. After the first message only a recent yes counts. Times are on the steady
 /// clock.
-class EngagedFreshness {
+class EngagementMonitor {
  public:
   /// Nodes that report engagement may start a little later, and report once a second [s].
   static constexpr double kGraceSec = 3.0;
 
-  explicit EngagedFreshness(const EngagementParams& params, double started_sec = steadyNowSec())
+  explicit EngagementMonitor(const EngagementParams& params, double started_sec = steadyNowSec())
       : params_(params), started_sec_(started_sec) {}
 
   void hear(bool engaged, double now_sec) {
