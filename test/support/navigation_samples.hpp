@@ -29,6 +29,18 @@ inline navigation::TargetEstimate targetAtOrigin(double stamp_sec, bool sign_tru
   return target;
 }
 
+/// A step's checked input: the vehicle here, with or without a new estimate of the window.
+inline navigation::Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool with_target,
+                                         double yaw_rad = 0.0) {
+  navigation::Situation situation;
+  situation.now_sec = now_sec;
+  situation.dt_sec = 0.03;
+  situation.vehicle = vehicleAt(position_m, now_sec, yaw_rad);
+  if (with_target) situation.target = targetAtOrigin(now_sec);
+  situation.target_is_new = with_target;
+  return situation;
+}
+
 inline navigation::NavigatorInput inputAt(const Eigen::Vector3d& position_m, double now_sec,
                                           bool with_target = true) {
   navigation::NavigatorInput input;
