@@ -200,18 +200,18 @@ void TargetEstimator::startAnewIfNot(std::uint32_t target_before) {
   judge_.reset();
 }
 
-facade::Answer TargetEstimator::selectWindow(std::uint32_t id) {
+Reply TargetEstimator::selectWindow(std::uint32_t id) {
   const std::uint32_t before = facade_.targetId();
-  auto answer = facade_.select(id);
+  const Reply reply = facade_.select(id);
   startAnewIfNot(before);
-  return answer;
+  return reply;
 }
 
-facade::Answer TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
+Reply TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
   const std::uint32_t before = facade_.targetId();
-  auto answer = facade_.selectNear(point_odom_m);
+  const Reply reply = facade_.selectNear(point_odom_m);
   startAnewIfNot(before);
-  return answer;
+  return reply;
 }
 
 void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up,

@@ -156,7 +156,7 @@ std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& f
   return inView(target->place, from);
 }
 
-Answer FacadeMemory::select(std::uint32_t id) {
+Reply FacadeMemory::select(std::uint32_t id) {
   if (id == 0) {
     setTarget(0, false);
     return {true, "no window is chosen: the tracked window becomes the target"};
@@ -170,7 +170,7 @@ Answer FacadeMemory::select(std::uint32_t id) {
                     (window->may_be_target ? "" : ", though it does not look like the reference")};
 }
 
-Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
+Reply FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
   // The window clicked into; of several, such as a window and its pane, the one seen most often.
   const auto rank = [&](const KnownWindow& window) {
     const double apart_m = (window.place.position_m - point_odom_m).norm();

@@ -82,8 +82,8 @@ class TargetEstimator {
   void flush();
   void reset();
 
-  facade::Answer selectWindow(std::uint32_t id);
-  facade::Answer selectWindowNear(const Eigen::Vector3d& point_odom_m);
+  Reply selectWindow(std::uint32_t id);
+  Reply selectWindowNear(const Eigen::Vector3d& point_odom_m);
   /// State of the navigator: the window it flies at (0: none), those it gave up, and whether it wants another
   /// one in place of the last of these.
   void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);

@@ -8,14 +8,9 @@
 
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/facade/facade_map.hpp"
+#include "window_ingress/text/reply.hpp"
 
 namespace window_ingress::facade {
-
-/// An answer to a request: never silent.
-struct Answer {
-  bool success = false;
-  std::string message;
-};
 
 /// All windows seen (`FacadeMap`) and the choice of the target among them.
 ///
@@ -43,8 +38,8 @@ class FacadeMemory {
   /// Expected place of the target in the image (distorted pixels); nothing if it is not wholly in view.
   std::optional<geometry::Quadrilateral> expected(const Viewpoint& from) const;
 
-  Answer select(std::uint32_t id);                         ///< 0: revokes the choice
-  Answer selectNear(const Eigen::Vector3d& point_odom_m);  ///< a click on the window or next to it
+  Reply select(std::uint32_t id);                         ///< 0: revokes the choice
+  Reply selectNear(const Eigen::Vector3d& point_odom_m);  ///< a click on the window or next to it
 
   /// Windows given up by the navigator: closed, or all attempts failed. Without `next_one` nothing replaces a
   /// target chosen by the operator; any other may be replaced by a window found later.

@@ -10,6 +10,7 @@
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
+#include "window_ingress/text/reply.hpp"
 
 namespace window_ingress::navigation {
 
@@ -62,12 +63,6 @@ struct NavigatorOutput {
   bool enabled = false;  ///< the setpoint is to be streamed
   std::string reason;    ///< why the state is what it is, for people; e.g. "odometry 0.41 s old"
   NavigatorReport report;
-};
-
-/// Answer to a request: never silent.
-struct Reply {
-  bool success = false;
-  std::string message;
 };
 
 /// Overrides of the parameters `commit/...` for one mission; empty: the parameter is used.

@@ -107,7 +107,7 @@ void MissionAction::receiveFacade(const window_ingress::Facade& facade) {
 }
 
 void MissionAction::start() {
-  const navigation::Reply reply = mission_.start(policyOf(*goal_.getGoal()));
+  const Reply reply = mission_.start(policyOf(*goal_.getGoal()));
   if (!reply.success) return refuse(goal_, reply.message);
   phase_ = Phase::kFlying;
   goal_.setAccepted(reply.message);

@@ -23,8 +23,8 @@ class MissionAction {
  public:
   struct Mission {
     std::function<std::string()> flying;  ///< why no other mission may begin now; empty if it may
-    std::function<navigation::Reply(const navigation::MissionPolicy&)> start;
-    std::function<navigation::Reply()> abort;  ///< zero has been sent when it returns
+    std::function<Reply(const navigation::MissionPolicy&)> start;
+    std::function<Reply()> abort;  ///< zero has been sent when it returns
   };
 
   /// \param diagnostics must outlive this

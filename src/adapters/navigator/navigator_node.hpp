@@ -59,14 +59,14 @@ class NavigatorNode : public Node {
   bool clockStandsStill(double now_sec);
   navigation::NavigatorOutput decide(double now_sec);
   void advertiseServices(ros::NodeHandle& pnh);
-  navigation::Reply startMission(const navigation::MissionPolicy& policy);
-  navigation::Reply abortMission(const std::string& why);
+  Reply startMission(const navigation::MissionPolicy& policy);
+  Reply abortMission(const std::string& why);
   std::string whyFlying() const;
   bool isLeftToOthers() const;
-  navigation::Reply reset();
+  Reply reset();
   bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   template <typename Response>
-  bool answer(const char* service, const navigation::Reply& reply, Response& response);
+  bool answer(const char* service, const Reply& reply, Response& response);
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);

@@ -6,7 +6,7 @@ namespace window_ingress::adapters {
 using navigation::State;
 
 void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
-  const auto advertise = [this, &pnh](const char* name, std::function<navigation::Reply()> act) {
+  const auto advertise = [this, &pnh](const char* name, std::function<Reply()> act) {
     services_.push_back(pnh.advertiseService<Trigger::Request, Trigger::Response>(
         name, [=](Trigger::Request&, Trigger::Response& response) { return answer(name, act(), response); }));
   };
@@ -17,14 +17,14 @@ void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
   services_.push_back(pnh.advertiseService("enable", &NavigatorNode::enable, this));
 }
 
-navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
+Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
   const double now_sec = nowSec();
   if (is_disabled_) return {false, "not started: disabled (~enable)"};
   if (!lockstep_) forgetSilentInputs();
   if (!lockstep_ && clockStandsStill(now_sec)) return {false, "the clock stands still: nothing on /clock"};
   if (params_.start_at_once && last_.state == State::kIdle)
     return {false, "start_at_once: the mission starts by itself as soon as it can"};
-  navigation::Reply reply = navigator_.start(input_, now_sec, policy);
+  Reply reply = navigator_.start(input_, now_sec, policy);
   if (reply.success) return reply;
   for (const Health& health : {odom_health_.health(), pose_health_.health(),
                                engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec())})
@@ -35,9 +35,9 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
   return reply;
 }
 
-navigation::Reply NavigatorNode::abortMission(const std::string& why) {
+Reply NavigatorNode::abortMission(const std::string& why) {
   if (is_disabled_ && whyFlying().empty()) return {true, "nothing to abort: disabled (~enable)"};
-  const navigation::Reply reply = navigator_.abort(why);
+  const Reply reply = navigator_.abort(why);
   if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
   return reply;
 }
@@ -65,13 +65,13 @@ bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBoo
 }
 
 // Publishes the mission's end before it is forgotten, however soon the reset comes.
-navigation::Reply NavigatorNode::reset() {
+Reply NavigatorNode::reset() {
   if (!lockstep_ && navigation::isEnd(navigator_.state())) step();
   return navigator_.reset();
 }
 
 template <typename Response>
-bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Response& response) {
+bool NavigatorNode::answer(const char* service, const Reply& reply, Response& response) {
   const std::string said =
       std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
   if (reply.success || said != refused_) ROS_INFO("%s", said.c_str());  // a repeated request is logged once

@@ -67,17 +67,18 @@ class WindowSelection {
     return message;
   }
 
-  bool select(window_ingress::SelectWindow::Request& request, window_ingress::SelectWindow::Response& reply) {
-    const facade::Answer answer = tracker_.selectWindow(request.id);
-    reply.success = answer.success;
-    reply.message = answer.message;
+  bool select(window_ingress::SelectWindow::Request& request,
+              window_ingress::SelectWindow::Response& response) {
+    const Reply reply = tracker_.selectWindow(request.id);
+    response.success = reply.success;
+    response.message = reply.message;
     return true;
   }
 
   void receiveChoice(const std_msgs::UInt32& message) {
-    const facade::Answer answer = tracker_.selectWindow(message.data);
-    ROS_INFO("chosen by a goal: %s", answer.message.c_str());
-    if (answer.success) published_sec_ = -1.0;  // publishes the choice with the next image
+    const Reply reply = tracker_.selectWindow(message.data);
+    ROS_INFO("chosen by a goal: %s", reply.message.c_str());
+    if (reply.success) published_sec_ = -1.0;  // publishes the choice with the next image
   }
 
   void receiveClick(const geometry_msgs::PointStamped& message) {

@@ -35,7 +35,7 @@ class Pilot {
     input_.image_stamp_sec = stamp_sec;
   }
 
-  navigation::Reply start(double now_sec) { return navigator_.start(input_, now_sec); }
+  Reply start(double now_sec) { return navigator_.start(input_, now_sec); }
 
   navigation::NavigatorOutput step(double now_sec) {
     input_.target = target_.target(now_sec);
