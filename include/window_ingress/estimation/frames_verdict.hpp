@@ -7,11 +7,11 @@ namespace window_ingress::estimation {
 /// What the first metres of flight have shown about the frames.
 struct FramesVerdict {
   enum State {
-    kOpen,  ///< not enough seen
+    kUndecided,  ///< not enough seen
     kGood,
     kWrong
   };
-  State state = kOpen;
+  State state = kUndecided;
   std::string what;  ///< names the mismatch, or what is still to be seen
 
   bool operator==(const FramesVerdict& other) const { return state == other.state && what == other.what; }

@@ -11,7 +11,7 @@ namespace window_ingress::adapters {
 Health framesHealth(const estimation::FramesVerdict& frames) {
   if (frames.state == estimation::FramesVerdict::kWrong)
     return {Health::kError, frames.what + "; no approach"};
-  if (frames.state == estimation::FramesVerdict::kOpen)
+  if (frames.state == estimation::FramesVerdict::kUndecided)
     return {Health::kOk, "not verified yet: " + frames.what};
   return {Health::kOk, "camera mounting and velocity frame verified"};
 }

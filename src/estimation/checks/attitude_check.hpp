@@ -14,12 +14,12 @@ class AttitudeCheck {
   /// \return true if they agree now
   bool see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Matrix3d& R_odom_base_odometry);
   void clear() { *this = AttitudeCheck(); }
-  /// Open until there are enough comparisons, and while only some of them agree.
+  /// Undecided until there are enough comparisons, and while only some of them agree.
   FramesVerdict verdict() const { return verdict_; }
 
  private:
   int in_a_row_ = 0;  ///< successive agreements if positive, else contradictions
-  FramesVerdict verdict_{FramesVerdict::kOpen, "attitude: only one of imu and odometry received so far"};
+  FramesVerdict verdict_{FramesVerdict::kUndecided, "attitude: only one of imu and odometry received so far"};
 };
 
 }  // namespace window_ingress::estimation

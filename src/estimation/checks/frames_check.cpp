@@ -13,7 +13,7 @@ FramesVerdict FramesCheck::verdict() const {
   FramesVerdict out;
   out.state = wrong                            ? FramesVerdict::kWrong
               : are(FramesVerdict::kGood) == 2 ? FramesVerdict::kGood
-                                               : FramesVerdict::kOpen;
+                                               : FramesVerdict::kUndecided;
   for (const FramesVerdict& part :
        wrong ? std::vector{mounted, tilted, twisted} : std::vector{mounted, twisted})
     if (part.state == out.state) out.what += (out.what.empty() ? "" : "; ") + part.what;

@@ -72,7 +72,7 @@ std::string turnWithHeadingText(const CameraTurn& camera) {
                    -geometry::kDegreesPerRad * camera.with_heading_rad);
 }
 
-std::string openText(const BodyTurn& turn) {
+std::string undecidedText(const BodyTurn& turn) {
   return formatted("camera mounting: a turn of %.0f deg cannot be excluded yet",
                    geometry::kDegreesPerRad * turn.most_rad);
 }
@@ -149,7 +149,7 @@ void MountingCheck::clear() {
   filter_.reset();
   measured_size_.reset();
   size_is_fault_ = false;
-  verdict_ = {FramesVerdict::kOpen, kNothingYet};
+  verdict_ = {FramesVerdict::kUndecided, kNothingYet};
 }
 
 // Measurements of one window do not hold for another; findings about the mounting do.
@@ -159,7 +159,7 @@ void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
     forgetPlaces();
     filter_.reset();
     measured_size_.reset();
-    if (size_is_fault_) verdict_ = {FramesVerdict::kOpen, kNothingYet};
+    if (size_is_fault_) verdict_ = {FramesVerdict::kUndecided, kNothingYet};
     size_is_fault_ = false;
   }
   target_id_ = seen_id;
@@ -241,7 +241,7 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
   else if (turn.most_rad < 2.0 * kMaxTurnRad)
     verdict_ = {FramesVerdict::kGood, ""};
   else if (verdict_.state != FramesVerdict::kWrong)
-    verdict_ = {FramesVerdict::kOpen, openText(turn)};
+    verdict_ = {FramesVerdict::kUndecided, undecidedText(turn)};
   if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
 

@@ -75,7 +75,7 @@ class MountingCheck {
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
   std::shared_ptr<Trial> trial_;  ///< other setups, a few tried per image; null while all is well
   std::optional<SizeEstimate> measured_size_;
-  FramesVerdict verdict_{FramesVerdict::kOpen, "camera mounting: not flown far enough yet"};
+  FramesVerdict verdict_{FramesVerdict::kUndecided, "camera mounting: not flown far enough yet"};
 };
 
 }  // namespace window_ingress::estimation

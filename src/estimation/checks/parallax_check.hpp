@@ -15,7 +15,7 @@ class ParallaxCheck {
   /// \param target_speed_mps speed at which the window itself may move; such motion proves nothing
   explicit ParallaxCheck(double target_speed_mps = 0.0) : target_speed_mps_(target_speed_mps) {}
 
-  enum class Verdict { kOpen, kAsSaid, kOther };
+  enum class Verdict { kUndecided, kAsSaid, kOther };
 
   /// Adds one image. \param camera_odom_m camera position \param window_odom_m the window's centre, computed
   /// with the stated size. Ignored if not finite, or not later than the last.
@@ -36,7 +36,7 @@ class ParallaxCheck {
 
   double target_speed_mps_;
   std::deque<Sight> sights_;
-  Verdict verdict_ = Verdict::kOpen;
+  Verdict verdict_ = Verdict::kUndecided;
   double factor_ = 1.0;
 };
 

@@ -166,7 +166,7 @@ void TwistCheck::judge() {
                           100.0 * all.misfit(), all.bias_mps)};
     accused_ = 0;
   } else if (verdict_.state == FramesVerdict::kWrong && is_refuted) {
-    verdict_ = {FramesVerdict::kOpen, "velocity: the suspected fault in its axes was not confirmed"};
+    verdict_ = {FramesVerdict::kUndecided, "velocity: the suspected fault in its axes was not confirmed"};
   }
 }
 

@@ -64,7 +64,7 @@ class TwistCheck {
   Way integrated_m_{};
   std::deque<Piece> pieces_;
   std::size_t accused_ = 0;  ///< meaning that a wrong verdict names; 0: none
-  FramesVerdict verdict_{FramesVerdict::kOpen, "velocity: not flown far enough yet"};
+  FramesVerdict verdict_{FramesVerdict::kUndecided, "velocity: not flown far enough yet"};
 };
 
 }  // namespace window_ingress::estimation

@@ -62,7 +62,7 @@ static_assert(same(ImagePoseMsg::OK, estimation::PoseReject::kNone) &&
 static_assert(same(ChecksMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) &&
               same(ChecksMsg::FIT_GO, estimation::Fit::kGo) &&
               same(ChecksMsg::FIT_NO_GO, estimation::Fit::kNoGo));
-static_assert(same(ChecksMsg::FRAMES_OPEN, estimation::FramesVerdict::kOpen) &&
+static_assert(same(ChecksMsg::FRAMES_OPEN, estimation::FramesVerdict::kUndecided) &&
               same(ChecksMsg::FRAMES_GOOD, estimation::FramesVerdict::kGood) &&
               same(ChecksMsg::FRAMES_WRONG, estimation::FramesVerdict::kWrong));
 static_assert(same(OpennessMsg::UNKNOWN, openness::Openness::kUnknown) &&

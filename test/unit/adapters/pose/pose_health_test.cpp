@@ -37,7 +37,7 @@ TEST(FramesHealth, IsAnErrorOnlyWhereTheyAreWrong) {
   using estimation::FramesVerdict;
   EXPECT_EQ(framesHealth({FramesVerdict::kWrong, "camera mounting turned"}).level, Health::kError);
   EXPECT_TRUE(says(framesHealth({FramesVerdict::kWrong, "camera mounting turned"}), "no approach"));
-  EXPECT_EQ(framesHealth({FramesVerdict::kOpen, "no way flown"}).level, Health::kOk);
+  EXPECT_EQ(framesHealth({FramesVerdict::kUndecided, "no way flown"}).level, Health::kOk);
   EXPECT_EQ(framesHealth({FramesVerdict::kGood, ""}).level, Health::kOk);
 }
 

@@ -30,8 +30,8 @@ TEST(AttitudeCheck, HeadingsMayDifferUpMayNot) {
 
 TEST(AttitudeCheck, AMomentDecidesNothing) {
   const Eigen::Matrix3d level = Eigen::Matrix3d::Identity(), tipped = turned(1.0, Eigen::Vector3d::UnitX());
-  EXPECT_EQ(seen(level, level, 5).state, FramesVerdict::kOpen);
-  EXPECT_EQ(seen(tipped, level, 5).state, FramesVerdict::kOpen);
+  EXPECT_EQ(seen(level, level, 5).state, FramesVerdict::kUndecided);
+  EXPECT_EQ(seen(tipped, level, 5).state, FramesVerdict::kUndecided);
   AttitudeCheck check;
   for (int i = 0; i < 100; ++i) EXPECT_EQ(check.see(i % 9 == 0 ? level : tipped, level), i % 9 == 0);
   EXPECT_NE(check.verdict().state, FramesVerdict::kWrong);

@@ -54,7 +54,7 @@ TEST(FramesCheck, FindsATwistInWorldAxes) {
 
 TEST(FramesCheck, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
   FramesCheck check{MountingCheck({}, FilterParams(), {{1.2, 1.0}})};
-  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kUndecided);
   EXPECT_NE(check.verdict().what.find("camera mounting"), std::string::npos);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 100; ++i, T.translation().x() += 0.02) check.twist.add(i / 50.0, T, {-1.0, 0, 0});
@@ -62,7 +62,7 @@ TEST(FramesCheck, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
   check.forgetPlaces();
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
   check.clear();
-  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kUndecided);
 }
 
 }  // namespace window_ingress::estimation::frames_check_test

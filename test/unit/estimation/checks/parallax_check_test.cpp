@@ -26,7 +26,7 @@ Seen moveBy(double way_m, double factor, double distance_m, unsigned seed, const
     const Eigen::Vector3d camera = moved * direction.normalized();
     const Eigen::Vector3d noise(gauss(random), gauss(random), gauss(random));
     const Eigen::Vector3d sight = window + (0.01 + 0.004 * distance_m) * noise - camera;
-    if (seen.check.verdict() == Verdict::kOpen) seen.way_m = moved;
+    if (seen.check.verdict() == Verdict::kUndecided) seen.way_m = moved;
     seen.check.see(2.0 * moved, camera, camera + sight / factor);  // 0.5 m/s
   }
   return seen;
@@ -74,17 +74,17 @@ TEST(ParallaxCheck, OdometryATenthOfASecondLateIsNoOtherWindow) {
 }
 
 TEST(ParallaxCheck, StaysOpenWithoutMotionAcrossTheSight) {
-  EXPECT_EQ(moveBy(0.0, 0.5, 5.0, 1, {0, 1, 0}).check.verdict(), Verdict::kOpen);
-  EXPECT_EQ(moveBy(1.0, 0.5, 5.0, 1, {5.0, 0.3, 0.2}).check.verdict(), Verdict::kOpen);
+  EXPECT_EQ(moveBy(0.0, 0.5, 5.0, 1, {0, 1, 0}).check.verdict(), Verdict::kUndecided);
+  EXPECT_EQ(moveBy(1.0, 0.5, 5.0, 1, {5.0, 0.3, 0.2}).check.verdict(), Verdict::kUndecided);
   ParallaxCheck still;
   for (int i = 0; i < 100; ++i) still.see(0.03 * i, {0, 0, 0}, {5, 0.01 * i, 0});
-  EXPECT_EQ(still.verdict(), Verdict::kOpen);
+  EXPECT_EQ(still.verdict(), Verdict::kUndecided);
 }
 
 TEST(ParallaxCheck, ForgetsAndIgnoresWhatIsNoNumber) {
   Seen seen = moveBy(0.8, 0.5, 5.0, 1, {0, 1, 0});
   seen.check.clear();
-  EXPECT_EQ(seen.check.verdict(), Verdict::kOpen);
+  EXPECT_EQ(seen.check.verdict(), Verdict::kUndecided);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 50; ++i) {
     seen.check.see(0.03 * i, {0, nan, 0.1 * i}, {5, 0, 0});
@@ -92,7 +92,7 @@ TEST(ParallaxCheck, ForgetsAndIgnoresWhatIsNoNumber) {
     seen.check.see(nan, {0, 0, 0.1 * i}, {5, 0, 0});
     seen.check.see(-0.03 * i, {0, 0, 0.1 * i}, {5, 0, 0});
   }
-  EXPECT_EQ(seen.check.verdict(), Verdict::kOpen);
+  EXPECT_EQ(seen.check.verdict(), Verdict::kUndecided);
 }
 
 }  // namespace window_ingress::estimation::parallax_check_test
