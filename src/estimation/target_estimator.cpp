@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "estimation/target_checks.hpp"
@@ -14,12 +13,6 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kSureMountingRad = 0.001;  ///< a mounting stated to be more certain is not checked [rad]
-
-TargetEstimatorParams checked(const TargetEstimatorParams& params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
-  return params;
-}
 
 SizeEstimate sizeSaid(const PoseParams& pose) {
   return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
@@ -43,7 +36,7 @@ TargetEstimate targetFrom(const FilteredWindow& window) {
 
 TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& filter,
                                  const TargetEstimatorParams& params)
-    : params_(checked(params)),
+    : params_(parameters::requireInRange(params, "tracker")),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
       checks_(new Checks{{MountingCheck(pose, filter, sizeSaid(pose))},

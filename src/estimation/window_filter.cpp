@@ -235,8 +235,7 @@ struct WindowFilter::Impl {
 };
 
 WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeEstimate>& size) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("filter parameters: " + parameters::joined(faults));
+  parameters::requireInRange(params, "filter parameters");
   if (size && !isUsable(*size)) throw std::invalid_argument("filter: the size of the opening is not usable");
   impl_ = std::make_unique<Impl>(params, size);
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "estimation/planar/homography.hpp"
 #include "estimation/planar/observation_check.hpp"
@@ -149,10 +148,8 @@ const char* toString(PoseReject reject) {
   return kNames[static_cast<std::size_t>(reject)];
 }
 
-WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params) : params_(params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("pose parameters: " + parameters::joined(faults));
-}
+WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params)
+    : params_(parameters::requireInRange(params, "pose parameters")) {}
 
 PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& window,
                                          const geometry::PinholeCamera& camera,

@@ -1,7 +1,6 @@
 #include "window_ingress/facade/facade_memory.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <tuple>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -16,12 +15,6 @@ constexpr int kSettledUpdates = 15;      // of the filter, after which the track
 constexpr double kNextReleaseSec = 1.5;  // as `release_sec`, for a target that was the next best
 constexpr double kMaxClickM = 1.0;       // of a click from a window
 constexpr double kNearestSigmaM = 0.03;  // least standard deviation of a place in odom
-
-FacadeParams checked(const FacadeParams& params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("facade: " + parameters::joined(faults));
-  return params;
-}
 
 WindowPlace placeFrom(const estimation::FilteredWindow& filtered) {
   WindowPlace place;
@@ -50,7 +43,8 @@ bool isClosed(const KnownWindow& window) { return window.openness.openness == op
 
 }  // namespace
 
-FacadeMemory::FacadeMemory(const FacadeParams& params) : params_(checked(params)), map_(params) {}
+FacadeMemory::FacadeMemory(const FacadeParams& params)
+    : params_(parameters::requireInRange(params, "facade")), map_(params) {}
 
 void FacadeMemory::reset() { *this = FacadeMemory(params_); }
 

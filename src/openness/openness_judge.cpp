@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -65,7 +64,7 @@ OpennessJudge::OpennessJudge(const OpennessParams& params, const geometry::Openi
   auto faults = parameters::outOfRange(params);
   if (params.max_depth_closed_m >= params.min_depth_behind_m)
     faults.push_back("max_depth_closed_m is not below min_depth_behind_m");
-  if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
+  parameters::throwIfAny(faults, "openness");
 }
 
 void OpennessJudge::reset() {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
 #include <type_traits>
 
 #include "window_ingress/parameters/unknown_key.hpp"
@@ -106,6 +107,10 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string line;
   for (const auto& text : texts) line += (line.empty() ? "" : between) + text;
   return line;
+}
+
+void throwIfAny(const std::vector<std::string>& faults, const std::string& owner) {
+  if (!faults.empty()) throw std::invalid_argument(owner + ": " + joined(faults));
 }
 
 std::string toText(const Field& field) {

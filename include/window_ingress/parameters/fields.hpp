@@ -96,6 +96,16 @@ std::vector<std::string> outOfRange(Params params) {
 /// The texts as one line, for an error.
 std::string joined(const std::vector<std::string>& texts, const char* between = "; ");
 
+/// \throws std::invalid_argument "OWNER: FAULT; FAULT", one line, if there is any fault
+void throwIfAny(const std::vector<std::string>& faults, const std::string& owner);
+
+/// `params`, all of whose fields are in range. \throws std::invalid_argument, as `throwIfAny`
+template <typename Params>
+Params requireInRange(const Params& params, const std::string& owner) {
+  throwIfAny(outOfRange(params), owner);
+  return params;
+}
+
 /// The value in yaml: true or false, integers without a point, other numbers so that they read back the same.
 std::string toText(const Field& field);
 

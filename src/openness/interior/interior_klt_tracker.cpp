@@ -4,7 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
-#include <stdexcept>
 
 #include "openness/interior/edge_klt.hpp"
 #include "openness/interior/smooth_regions.hpp"
@@ -271,10 +270,7 @@ bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const 
 }
 
 InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params)
-    : impl_(std::make_unique<Impl>(params)) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
-}
+    : impl_(std::make_unique<Impl>(parameters::requireInRange(params, "openness"))) {}
 InteriorKltTracker::~InteriorKltTracker() = default;
 
 void InteriorKltTracker::reset() { impl_->has_key = false; }

@@ -49,6 +49,17 @@ TEST(FieldList, KeepsWithinTheRange) {
   EXPECT_TRUE(outOfRange(params).empty());
 }
 
+TEST(FieldList, RequiresAllValuesInRange) {
+  DetectorParams params;
+  EXPECT_EQ(requireInRange(params, "detector").max_candidates, params.max_candidates);
+  params.max_candidates = -1;
+  params.edges.floor = -1.0;
+  const auto refusal = test::refusalOf<std::invalid_argument>([&] { requireInRange(params, "detector"); });
+  EXPECT_EQ(refusal, "detector: " + joined(outOfRange(params)));
+  EXPECT_TRUE(test::says(refusal, "detector: edges/floor = -1"));
+  EXPECT_TRUE(test::says(refusal, "; max_candidates = -1 is not within"));
+}
+
 TEST(FieldList, RefusesWhatItDoesNotKnowByName) {
   EXPECT_EQ(errorOf("edges/flor=1"), "edges/flor: unknown name; did you mean 'floor'?");
   EXPECT_TRUE(test::says(errorOf("edges/floor"), "NAME=VALUE"));
