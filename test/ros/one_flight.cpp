@@ -81,18 +81,18 @@ class Words {
   }
 
   void located(const std_msgs::Header& header, const geometry::PinholeCamera& camera,
-               const estimation::TargetEstimator& tracker) {
+               const estimation::TargetEstimator& estimator) {
     WindowPose message;
     message.header = header;
     message.camera = adapters::toMsg(navigation::cameraInBody(camera, facts_.T_base_camera));
     message.target = adapters::targetMsg(
-        tracker.facade().target(), tracker.expected(header.stamp.toSec(), camera, facts_.T_base_camera));
-    message.openness = adapters::toMsg(tracker.openness());
-    if (const auto& measured = tracker.measuredSize()) message.measured_size = adapters::toMsg(*measured);
+        estimator.facade().target(), estimator.expected(header.stamp.toSec(), camera, facts_.T_base_camera));
+    message.openness = adapters::toMsg(estimator.openness());
+    if (const auto& measured = estimator.measuredSize()) message.measured_size = adapters::toMsg(*measured);
     const auto& said = facts_.overlay.homography_pose.pose;
     message.size = adapters::toMsg(geometry::OpeningSize{said.opening_width_m, said.opening_height_m});
-    tellImage(tracker.lastUpdate(), message);
-    tellFiltered(header.stamp.toSec(), tracker, message);
+    tellImage(estimator.lastUpdate(), message);
+    tellFiltered(header.stamp.toSec(), estimator, message);
     bag_.write("/window_pose", header.stamp, message);
   }
 
@@ -109,22 +109,23 @@ class Words {
     if (update.pose.estimate) message.size = adapters::toMsg(update.pose.estimate->opening);
   }
 
-  void tellFiltered(double stamp_sec, const estimation::TargetEstimator& tracker, WindowPose& message) const {
+  void tellFiltered(double stamp_sec, const estimation::TargetEstimator& estimator,
+                    WindowPose& message) const {
     std::uint8_t reject = FilteredPose::NO_WINDOW;
     std::string reason = reason_;
-    if (is_seen_) reason = tracker.lastUpdate().why_not;
+    if (is_seen_) reason = estimator.lastUpdate().why_not;
     if (is_seen_) reject = reason.empty() ? FilteredPose::OK : FilteredPose::REFUSED;
     adapters::VerifiedTarget verified;
-    verified.frames = tracker.frames();
-    if (const auto state = tracker.filtered(stamp_sec)) {
+    verified.frames = estimator.frames();
+    if (const auto state = estimator.filtered(stamp_sec)) {
       message.filtered = adapters::toMsg(*state);
       message.size = adapters::toMsg(state->size);
       verified = {verified.frames,
-                  tracker.fit(*state),
+                  estimator.fit(*state),
                   state->consistency,
-                  tracker.otherWindow(),
-                  tracker.approachForbidden(*state),
-                  tracker.unverified()};
+                  estimator.otherWindow(),
+                  estimator.approachForbidden(*state),
+                  estimator.unverified()};
     } else if (reason.empty()) {
       reject = FilteredPose::REFUSED;
       reason = "no image was used recently";
@@ -150,7 +151,7 @@ void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
     header.stamp = frame.stamp;
     header.frame_id = facts.reference->image.header.frame_id;
     words.seen(header, frame.image, *frame.perception);
-    words.located(header, frame.camera.value(), *frame.tracker);
+    words.located(header, frame.camera.value(), *frame.estimator);
   });
 }
 
@@ -158,41 +159,41 @@ void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
 class Loop {
  public:
   Loop(const Facts& facts, const evaluation::FlightParams& params, Words& words)
-      : facts_(facts), words_(words), eyes_(params) {
-    eyes_.setReference(facts.appearance());
+      : facts_(facts), words_(words), perception_(params) {
+    perception_.setReference(facts.appearance());
   }
 
   void take(const rosbag::MessageInstance& message) {
     if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
       takeOdometry(*odometry, message.getTime().toSec());
     else if (const auto imu = message.instantiate<sensor_msgs::Imu>())
-      eyes_.addAttitude(imu->header.stamp.toSec(),
-                        adapters::fromMsg(*imu, imu->header.frame_id).value.value().R_odom_base);
+      perception_.addAttitude(imu->header.stamp.toSec(),
+                              adapters::fromMsg(*imu, imu->header.frame_id).value.value().R_odom_base);
     else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>())
-      eyes_.calibrate(adapters::cameraFromMsg(*info, false).value.value());
+      perception_.calibrate(adapters::cameraFromMsg(*info, false).value.value());
     else if (const auto image = message.instantiate<sensor_msgs::CompressedImage>())
       look(*image);
   }
 
-  /// Tells the tracker that no odometry follows the last image.
+  /// Tells the estimator that no odometry follows the last image.
   void finish() {
-    eyes_.tracker().flush();
+    perception_.estimator().flush();
     tell();
   }
 
  private:
   void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
     const auto vehicle = adapters::fromMsg(message, facts_.frames).value.value();
-    odometry_sec_ = eyes_.addOdometry(vehicle, arrival_sec);
+    odometry_sec_ = perception_.addOdometry(vehicle, arrival_sec);
     tellIfLocated();
   }
 
   void look(const sensor_msgs::CompressedImage& message) {
     const cv::Mat image = adapters::decode(message, adapters::ImageLimits()).image;
     const double stamp_sec = message.header.stamp.toSec();
-    const auto window = eyes_.detect(image, stamp_sec, facts_.T_base_camera);
-    words_.seen(message.header, image, eyes_.perception());
-    eyes_.see(stamp_sec, facts_.T_base_camera, window);
+    const auto window = perception_.detect(image, stamp_sec, facts_.T_base_camera);
+    words_.seen(message.header, image, perception_.perception());
+    perception_.see(stamp_sec, facts_.T_base_camera, window);
     waiting_ = message.header;
     tellIfLocated();
   }
@@ -202,13 +203,13 @@ class Loop {
   }
 
   void tell() {
-    if (waiting_) words_.located(*waiting_, eyes_.camera().value(), eyes_.tracker());
+    if (waiting_) words_.located(*waiting_, perception_.camera().value(), perception_.estimator());
     waiting_.reset();
   }
 
   const Facts& facts_;
   Words& words_;
-  evaluation::FlightPerception eyes_;
+  evaluation::FlightPerception perception_;
   std::optional<std_msgs::Header> waiting_;  // an image that waits for odometry
   double odometry_sec_ = -1.0;
 };

@@ -29,8 +29,8 @@ class Replay {
         each_(each),
         jumped_(jumped),
         waiting_(params.with_pose && !params.topics.odom.empty(), !params.topics.imu.empty()),
-        eyes_(params) {
-    if (params.reference) eyes_.setReference(*params.reference);
+        perception_(params) {
+    if (params.reference) perception_.setReference(*params.reference);
   }
 
   void prepare(const rosbag::Bag& bag);
@@ -63,7 +63,7 @@ class Replay {
   const std::function<void(const ReplayedFrame&)>& each_;
   const std::function<void(const std::string&)>& jumped_;
   WaitingImages waiting_;
-  evaluation::FlightPerception eyes_;
+  evaluation::FlightPerception perception_;
   estimation::PoseBuffer odometry_;
   Converted<geometry::PinholeCamera> camera_;
   RecordedTransforms transforms_;
@@ -120,7 +120,7 @@ void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec)
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
   noticeJump(message.header.stamp);
   const auto& T_odom_base = vehicle.value->T_odom_base;
-  const double stamp_sec = eyes_.addOdometry(*vehicle.value, arrival_sec);
+  const double stamp_sec = perception_.addOdometry(*vehicle.value, arrival_sec);
   odometry_.add(stamp_sec, T_odom_base);
   waiting_.noteOdometry(stamp_sec);
   processComplete();
@@ -130,7 +130,7 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   const auto attitude = fromMsg(message, params_.vehicle.frames.base);
   if (!attitude) return refuse(params_.topics.imu, attitude.reason);
   noticeJump(message.header.stamp);
-  eyes_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
+  perception_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
   waiting_.noteAttitude(attitude.value->stamp_sec);
   processComplete();
 }
@@ -150,8 +150,9 @@ void Replay::noticeJump(const ros::Time& stamp) {
 }
 
 void Replay::forgetAll() {
-  eyes_.forget();
-  if (params_.reference) eyes_.setReference(*params_.reference);  // discards the adaptation to the light
+  perception_.forget();
+  if (params_.reference)
+    perception_.setReference(*params_.reference);  // discards the adaptation to the light
   odometry_.clear();
   waiting_.clear();
 }
@@ -172,13 +173,13 @@ void Replay::process(const WaitingImages::Image& waiting) {
   frame.camera = camera.value;
   const double stamp_sec = frame.stamp.toSec();
   frame.has_odometry = odometry_.at(stamp_sec, estimation::TargetEstimator::kMaxPoseGapSec).has_value();
-  frame.has_attitude = eyes_.knowsAttitude(stamp_sec);
+  frame.has_attitude = perception_.knowsAttitude(stamp_sec);
   const auto mounted = transforms_.between(params_.vehicle.frames.base, waiting.header.frame_id);
   const double begun_ms = 1e3 * steadyNowSec();
-  eyes_.calibrate(frame.camera);
-  frame.row.window = eyes_.detect(decoded.image, stamp_sec, mounted.value);
-  frame.perception = &eyes_.perception();
-  frame.tracker = &eyes_.tracker();
+  perception_.calibrate(frame.camera);
+  frame.row.window = perception_.detect(decoded.image, stamp_sec, mounted.value);
+  frame.perception = &perception_.perception();
+  frame.estimator = &perception_.estimator();
   frame.detector_ms = 1e3 * steadyNowSec() - begun_ms;
   if (!frame.row.window) frame.row.reject_reason = detection::toString(frame.perception->trace().outcome);
   if (params_.with_pose) locate(frame, mounted);
@@ -199,20 +200,20 @@ void Replay::count(const ReplayedFrame& frame) {
 
 void Replay::locate(ReplayedFrame& frame, const Converted<Eigen::Isometry3d>& mounted) {
   const double stamp_sec = frame.stamp.toSec();
-  eyes_.see(stamp_sec, mounted.value, frame.row.window);
+  perception_.see(stamp_sec, mounted.value, frame.row.window);
   if (!frame.camera) return;
-  eyes_.tracker().flush();
+  perception_.estimator().flush();
   frame.why_not_filtered = "no window";
   if (frame.row.window) {
     if (!mounted) refuse("mounting of the camera", mounted.reason);
-    const estimation::TargetUpdate& update = frame.tracker->lastUpdate();
+    const estimation::TargetUpdate& update = frame.estimator->lastUpdate();
     frame.row.pose = update.pose.estimate;
     frame.why_not_filtered = update.why_not;
     if (!frame.row.pose)
       frame.row.reject_reason = std::string("pose_") + estimation::toString(update.pose.reject);
   }
-  frame.filtered = frame.tracker->filtered(stamp_sec);
-  frame.openness = frame.tracker->openness();
+  frame.filtered = frame.estimator->filtered(stamp_sec);
+  frame.openness = frame.estimator->openness();
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct ReplayedFrame {
   std::optional<Eigen::Isometry3d> truth;  ///< T_camera_window, if the bag holds it for this image
   cv::Mat image;                           ///< valid during the call
   const perception::WindowPerception* perception = nullptr;  ///< all detections; valid during the call
-  const estimation::TargetEstimator* tracker = nullptr;  ///< state after this image; valid during the call
+  const estimation::TargetEstimator* estimator = nullptr;  ///< state after this image; valid during the call
   double detector_ms = 0.0, pose_ms = 0.0;
 };
 

@@ -28,10 +28,10 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       window_gate_(limitsFor(params_.lockstep, vehicle_.stamps)),
       odom_gate_(limitsFor(params_.lockstep, vehicle_.stamps)),
       camera_(nh, diagnostics_, vehicle_.image_is_rectified),
-      tracker_(params_.pose, params_.filter, params_.tracker),
+      estimator_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_),
-      selection_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom),
+      selection_(nh, pnh, diagnostics_, estimator_, tf_, vehicle_.frames.odom),
       publisher_(nh, params_.lockstep, vehicle_.frames.odom,
                  params_.publish_tf ? params_.window_frame : std::string()) {
   const int queue = queueFor(params_.lockstep, 10);
@@ -54,10 +54,10 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   }
   if (!params_.publish_tf) diagnostics_.addOutput("window_pose", publisher_.topics());
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
-  diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
-  diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
+  diagnostics_.add("frames check", [this] { return framesHealth(estimator_.frames()); });
+  diagnostics_.add("clocks", [this] { return clocksHealth(estimator_.clockOffset(), odom_clock_); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_); });
-  diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
+  diagnostics_.add("openness", [this] { return opennessHealth(estimator_.openness()); });
   diagnostics_.add("target", [this] { return targetHealth(unused_, sizeSaid()); });
   if (params_.lockstep) {
     lockstep_.emplace(
@@ -112,8 +112,8 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.stamped(vehicle.value->stamp_sec);
   if (!lockstep_)
     vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
-  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base, vehicle.value->velocity_odom_mps,
-                       vehicle.value->turn_odom_radps);
+  estimator_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
+                         vehicle.value->velocity_odom_mps, vehicle.value->turn_odom_radps);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
 }
 
@@ -129,7 +129,7 @@ void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   if (!attitude) return imu_health_->refused(attitude.reason);
   imu_health_->accepted();
   imu_health_->stamped(attitude.value->stamp_sec);
-  tracker_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
+  estimator_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
 }
 
 // An image waits until odometry has reached its exposure, because poses are interpolated, not extrapolated.
@@ -149,20 +149,20 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.header = message.header;
   out.size = toMsg(sizeSaid());
   Refusal unused = estimate(message, out);
-  out.openness = toMsg(tracker_.openness());
-  if (const auto& measured = tracker_.measuredSize()) out.measured_size = toMsg(*measured);
+  out.openness = toMsg(estimator_.openness());
+  if (const auto& measured = estimator_.measuredSize()) out.measured_size = toMsg(*measured);
   VerifiedTarget verified;
-  verified.frames = tracker_.frames();
-  const auto state = tracker_.filtered(message.header.stamp.toSec());
+  verified.frames = estimator_.frames();
+  const auto state = estimator_.filtered(message.header.stamp.toSec());
   if (state) {
     out.filtered = toMsg(*state);
     out.size = toMsg(state->size);
     verified = {verified.frames,
-                tracker_.fit(*state),
+                estimator_.fit(*state),
                 state->consistency,
-                tracker_.otherWindow(),
-                tracker_.approachForbidden(*state),
-                tracker_.unverified()};
+                estimator_.otherWindow(),
+                estimator_.approachForbidden(*state),
+                estimator_.unverified()};
   } else if (unused.reason.empty()) {
     unused = {window_ingress::FilteredPose::REFUSED, "no image was used recently"};
   }
@@ -209,14 +209,15 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
   }
   if (!camera || !stamp_sec) return {Filtered::NO_WINDOW, window.reason};
   if (tf_attitude_)
-    if (const auto R_odom_base = tf_attitude_->at(*stamp_sec)) tracker_.addAttitude(*stamp_sec, *R_odom_base);
-  tracker_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
-  tracker_.flush();
+    if (const auto R_odom_base = tf_attitude_->at(*stamp_sec))
+      estimator_.addAttitude(*stamp_sec, *R_odom_base);
+  estimator_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
+  estimator_.flush();
   out.target = targetMsg(
-      tracker_.facade().target(),
-      T_base_camera_ ? tracker_.expected(*stamp_sec, *camera.value, *T_base_camera_.value) : std::nullopt);
+      estimator_.facade().target(),
+      T_base_camera_ ? estimator_.expected(*stamp_sec, *camera.value, *T_base_camera_.value) : std::nullopt);
   if (!window) return {Filtered::NO_WINDOW, window.reason};
-  const estimation::TargetUpdate& update = tracker_.lastUpdate();
+  const estimation::TargetUpdate& update = estimator_.lastUpdate();
   out.image = toMsg(update.pose);
   if (update.pose.estimate) out.size = toMsg(update.pose.estimate->opening);
   if (!T_base_camera_) return {Filtered::NO_MOUNTING, T_base_camera_.reason};
@@ -235,7 +236,7 @@ void PoseNode::forget() {
   odometry_stamp_sec_ = -1.0;
   odom_clock_.clear();
   pending_.reset();
-  tracker_.reset();
+  estimator_.reset();
   consistency_ = estimation::Consistency();
   unused_ = UnusedImages();
   publisher_.clear(ros::Time::now());

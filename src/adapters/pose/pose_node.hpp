@@ -74,7 +74,7 @@ class PoseNode : public Node {
   estimation::SenderClock odom_clock_;
   ClockWatch clock_;
   CameraSource camera_;
-  estimation::TargetEstimator tracker_;
+  estimation::TargetEstimator estimator_;
   estimation::Consistency consistency_;
   UnusedImages unused_;
   double odometry_stamp_sec_ = -1.0;

@@ -24,11 +24,11 @@ namespace window_ingress::adapters {
 /// all known windows (`facade`, `markers`).
 class WindowSelection {
  public:
-  /// \param tracker \param tf both must outlive this
+  /// \param estimator \param tf both must outlive this
   WindowSelection(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
-                  estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf,
+                  estimation::TargetEstimator& estimator, const tf2_ros::Buffer& tf,
                   const std::string& odom_frame)
-      : tracker_(tracker), tf_(tf), odom_frame_(odom_frame) {
+      : estimator_(estimator), tf_(tf), odom_frame_(odom_frame) {
     publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
     click_ = subscribeCatching<geometry_msgs::PointStamped>(
         nh, "clicked_point", 1, diagnostics, [this](const auto& message) { receiveClick(*message); });
@@ -43,7 +43,7 @@ class WindowSelection {
   /// Call after each image; publishes a few times a second. \param markers topic of the markers
   void publish(const ros::Time& stamp, ros::Publisher& markers) {
     const double now_sec = steadyNowSec();
-    const std::uint32_t target = tracker_.facade().targetId();
+    const std::uint32_t target = estimator_.facade().targetId();
     if (now_sec - published_sec_ < kFacadePeriodSec && target == published_target_) return;
     const window_ingress::Facade message = tell(stamp);
     if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
@@ -60,8 +60,8 @@ class WindowSelection {
 
   window_ingress::Facade tell(const ros::Time& stamp) {
     published_sec_ = steadyNowSec();
-    published_target_ = tracker_.facade().targetId();
-    window_ingress::Facade message = toMsg(tracker_.facade(), stamp.toSec());
+    published_target_ = estimator_.facade().targetId();
+    window_ingress::Facade message = toMsg(estimator_.facade(), stamp.toSec());
     message.header = headerOf(stamp, odom_frame_);
     publisher_.publish(message);
     return message;
@@ -69,14 +69,14 @@ class WindowSelection {
 
   bool select(window_ingress::SelectWindow::Request& request,
               window_ingress::SelectWindow::Response& response) {
-    const Reply reply = tracker_.selectWindow(request.id);
+    const Reply reply = estimator_.selectWindow(request.id);
     response.success = reply.success;
     response.message = reply.message;
     return true;
   }
 
   void receiveChoice(const std_msgs::UInt32& message) {
-    const Reply reply = tracker_.selectWindow(message.data);
+    const Reply reply = estimator_.selectWindow(message.data);
     ROS_INFO("chosen by a goal: %s", reply.message.c_str());
     if (reply.success) published_sec_ = -1.0;  // publishes the choice with the next image
   }
@@ -91,26 +91,27 @@ class WindowSelection {
     else if (!point.allFinite())
       last_click_ = "the point is not finite";
     else
-      last_click_ = tracker_.selectWindowNear(*T_odom_frame.value * point).message;
+      last_click_ = estimator_.selectWindowNear(*T_odom_frame.value * point).message;
     ROS_INFO("clicked: %s", last_click_.c_str());
   }
 
   void receiveState(const window_ingress::IngressState& message) {
-    tracker_.heed(message.window_id, message.given_up, message.next_window != 0);
+    estimator_.heed(message.window_id, message.given_up, message.next_window != 0);
   }
 
   Health health() const {
     std::size_t shown = 0;
-    for (const auto& window : tracker_.facade().windows()) shown += tracker_.facade().isShown(window) ? 1 : 0;
-    const std::uint32_t target = tracker_.facade().targetId();
+    for (const auto& window : estimator_.facade().windows())
+      shown += estimator_.facade().isShown(window) ? 1 : 0;
+    const std::uint32_t target = estimator_.facade().targetId();
     std::string text = std::to_string(shown) +
                        " known, target: " + (target == 0 ? "none yet" : "window " + std::to_string(target));
-    if (tracker_.facade().isChosen()) text += " (chosen)";
+    if (estimator_.facade().isChosen()) text += " (chosen)";
     if (!last_click_.empty()) text += "; last click: " + last_click_;
     return {Health::kOk, text};
   }
 
-  estimation::TargetEstimator& tracker_;
+  estimation::TargetEstimator& estimator_;
   const tf2_ros::Buffer& tf_;
   std::string odom_frame_;
   ros::Publisher publisher_;

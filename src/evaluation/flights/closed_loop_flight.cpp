@@ -78,8 +78,8 @@ class Flight {
   void look(const simulation::CameraFrame& frame);
   std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
   void chooseTarget();
-  estimation::TargetEstimator& tracker() { return perception_.tracker(); }
-  const estimation::TargetEstimator& tracker() const { return perception_.tracker(); }
+  estimation::TargetEstimator& estimator() { return perception_.estimator(); }
+  const estimation::TargetEstimator& estimator() const { return perception_.estimator(); }
   void step();
   void keepTrack();
   void report() const;
@@ -153,19 +153,19 @@ void Flight::chooseTarget() {
   was_chosen_ = was_chosen_ || !world_.scenario().target_chosen || params_.without_images;
   if (was_chosen_) return;
   const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
-  was_chosen_ = tracker().selectWindowNear(T_odom_window.translation()).success;
+  was_chosen_ = estimator().selectWindowNear(T_odom_window.translation()).success;
 }
 
 void Flight::step() {
   const double now_sec = world_.timeSec();
   chooseTarget();
-  input_.target = tracker().target(now_sec);
-  const facade::KnownWindow* remembered = tracker().facade().target();
+  input_.target = estimator().target(now_sec);
+  const facade::KnownWindow* remembered = estimator().facade().target();
   input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
   const bool may_start = input_.image_stamp_sec && was_chosen_;
   if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
-  tracker().heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
+  estimator().heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
   if (!output_.enabled) return;
   world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
 }
@@ -195,7 +195,7 @@ FlightRecord Flight::record() const {
       R_window_odom * (world_.odometryDrift().linear().transpose() * output_.setpoint.velocity_odom_mps);
   record.setpoint_yaw_rate_radps = output_.setpoint.yaw_rate_radps;
   record.detected = detected_;
-  record.sighting = tracker().lastUpdate().why_not;
+  record.sighting = estimator().lastUpdate().why_not;
   record.predicted_miss_m = output_.report.predicted_miss_m;
   recordTarget(record);
   recordImage(record);
@@ -218,7 +218,7 @@ void Flight::recordTarget(FlightRecord& record) const {
 }
 
 void Flight::recordImage(FlightRecord& record) const {
-  const auto& seen = tracker().lastUpdate().pose.estimate;
+  const auto& seen = estimator().lastUpdate().pose.estimate;
   if (!seen || !started_sec_) return;
   record.image = ImageRecord{
       seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted, seen->opening_width_m,
@@ -242,7 +242,7 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
   result.max_speed_mps = referee.maxSpeed();
   result.nearest_m = referee.nearest();
   result.blind_sec = output_.report.blind_sec;
-  result.clock_offset = tracker().clockOffset();
+  result.clock_offset = estimator().clockOffset();
   if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
   result.reason = verdict.outcome == Outcome::kPassed
                       ? verdict.reason

@@ -41,8 +41,8 @@ class FlightPerception {
 
   const perception::WindowPerception& perception() const { return perception_; }
   const std::optional<geometry::PinholeCamera>& camera() const { return camera_; }
-  estimation::TargetEstimator& tracker() { return tracker_; }
-  const estimation::TargetEstimator& tracker() const { return tracker_; }
+  estimation::TargetEstimator& estimator() { return estimator_; }
+  const estimation::TargetEstimator& estimator() const { return estimator_; }
 
  private:
   static constexpr double kMaxAttitudeGapSec = 0.02;
@@ -50,7 +50,7 @@ class FlightPerception {
   perception::WindowPerception perception_;
   estimation::PoseBuffer attitude_;
   estimation::SenderClock odometry_clock_;
-  estimation::TargetEstimator tracker_;
+  estimation::TargetEstimator estimator_;
   std::optional<geometry::PinholeCamera> camera_;  // from the last camera_info
   std::optional<double> last_seen_sec_;
 };

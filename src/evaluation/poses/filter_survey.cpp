@@ -62,15 +62,15 @@ ApproachScript drawApproach(std::uint32_t seed, SizeTold told) {
   return script;
 }
 
-std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::TargetEstimator& tracker,
+std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::TargetEstimator& estimator,
                                  const geometry::OpeningSize& opening) {
   std::vector<FilterSample> samples;
   while (approach.advance()) {
     for (const auto& odometry : approach.odometry())
-      tracker.addOdometry(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
+      estimator.addOdometry(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
     if (!approach.isInView()) continue;
-    tracker.see(approach.window(), approach.camera(), approach.T_base_camera());
-    const auto found = tracker.filtered(approach.timeSec());
+    estimator.see(approach.window(), approach.camera(), approach.T_base_camera());
+    const auto found = estimator.filtered(approach.timeSec());
     if (!found) continue;
     FilterSample sample = compare(*found, approach, opening);
     sample.time_sec = approach.timeSec();
@@ -78,7 +78,7 @@ std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::Target
     sample.position_m = approach.positionM();
     sample.relative_yaw_rad = approach.relativeYawRad();
     sample.filtered_yaw_rad = geometry::wrapAngle(sample.relative_yaw_rad + sample.yaw_error_rad);
-    if (const auto& single = tracker.lastUpdate().pose.estimate) {
+    if (const auto& single = estimator.lastUpdate().pose.estimate) {
       sample.single_yaw_rad = single->yaw_rad;
       sample.apparent_width_m = single->opening_width_m;
     }

@@ -36,7 +36,7 @@ estimation::PoseParams poseParams(SizeTold told);
 ApproachScript drawApproach(std::uint32_t seed, SizeTold told);
 
 /// Flies to the end; one sample per image.
-std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::TargetEstimator& tracker,
+std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::TargetEstimator& estimator,
                                  const geometry::OpeningSize& opening);
 
 /// Mean normalised error squared of the samples whose sign is trusted; nothing if there are none.

@@ -92,15 +92,15 @@ bool isSound(const Eigen::MatrixXd& covariance) {
          (covariance - covariance.transpose()).norm() <= 1e-6 * covariance.norm();
 }
 
-void expectSound(const TargetEstimator& tracker, double now_sec, unsigned seed) {
-  if (const auto window = tracker.filtered(now_sec)) {
+void expectSound(const TargetEstimator& estimator, double now_sec, unsigned seed) {
+  if (const auto window = estimator.filtered(now_sec)) {
     EXPECT_TRUE(geometry::isValidPose(window->T_odom_window)) << seed;
     EXPECT_TRUE(isSound(window->covariance)) << seed << '\n' << window->covariance;
     EXPECT_TRUE(isSound(window->size.log_covariance)) << seed << '\n' << window->size.log_covariance;
     EXPECT_GT(window->size.size.width_m * window->size.size.height_m, 0.0) << seed;
     EXPECT_TRUE(std::isfinite(window->consistency.mean_nis)) << seed;
   }
-  const auto& result = tracker.lastUpdate().pose;
+  const auto& result = estimator.lastUpdate().pose;
   if (!result.estimate) return;
   EXPECT_TRUE(geometry::isValidPose(result.estimate->best.T_camera_window)) << seed;
   EXPECT_TRUE(isSound(result.estimate->best.covariance)) << seed << '\n' << result.estimate->best.covariance;
@@ -121,7 +121,7 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
   int wrong = 0;
   for (unsigned seed = 1; seed <= 120; ++seed) {
     Mischief mischief(seed);
-    TargetEstimator tracker(paramsOf(seed), estimation::FilterParams(), TargetEstimatorParams());
+    TargetEstimator estimator(paramsOf(seed), estimation::FilterParams(), TargetEstimatorParams());
     double now = 0.0;
     for (int i = 0; i < 240; ++i, now += 0.033) {
       const bool calm = i >= 150;  // from here on all inputs are valid
@@ -136,23 +136,23 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
       if (odd(0.02)) stamp = mischief.odd();
       if (odd(0.02)) stamp = now - 0.05;
       if (odd(0.02)) mischief.spoil(mounting);
-      tracker.addOdometry(stamp, odometry, velocity);
+      estimator.addOdometry(stamp, odometry, velocity);
       Eigen::Quaterniond attitude(truth.linear());
       if (odd(0.03)) attitude.coeffs()(mischief.pick(4)) = mischief.odd();
-      tracker.addAttitude(odd(0.02) ? mischief.odd() : now, attitude);
+      estimator.addAttitude(odd(0.02) ? mischief.odd() : now, attitude);
       auto window = sighting(truth, now);
       if (odd(0.2)) mischief.spoil(window);
       if (odd(0.05)) mischief.spoil(window);
       geometry::PinholeCamera camera = kCamera;
       if (odd(0.02)) camera.fx = mischief.odd();
-      tracker.see(window, camera, odd(0.02) ? std::nullopt : std::make_optional(mounting));
-      expectSound(tracker, now, seed);
+      estimator.see(window, camera, odd(0.02) ? std::nullopt : std::make_optional(mounting));
+      expectSound(estimator, now, seed);
       if (::testing::Test::HasFailure()) return;
     }
-    const auto target = tracker.target(now);
-    ASSERT_TRUE(target) << seed << ' ' << tracker.lastUpdate().why_not;
+    const auto target = estimator.target(now);
+    ASSERT_TRUE(target) << seed << ' ' << estimator.lastUpdate().why_not;
     EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.5) << seed;
-    wrong += tracker.frames().state == estimation::FramesVerdict::kWrong;
+    wrong += estimator.frames().state == estimation::FramesVerdict::kWrong;
     if (::testing::Test::HasFailure()) return;
   }
   EXPECT_LE(wrong, 2) << "numbers that are wrong but finite may look like wrong frames for a while";

@@ -31,21 +31,21 @@ detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, doub
   return window;
 }
 
-TargetEstimator tracker() {
+TargetEstimator defaultEstimator() {
   return TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), TargetEstimatorParams());
 }
 
 TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
-  auto track = tracker();
+  auto estimator = defaultEstimator();
   for (int i = 0; i < 30; ++i) {
     const double now = i / 30.0, exposure = now - 0.05;
-    track.addOdometry(now, vehicleAt(now));  // 1 m/s sideways
-    track.addAttitude(now, Eigen::Quaterniond(geometry::yawRotation(0.1)));
-    if (exposure >= 0.0) track.see(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
+    estimator.addOdometry(now, vehicleAt(now));  // 1 m/s sideways
+    estimator.addAttitude(now, Eigen::Quaterniond(geometry::yawRotation(0.1)));
+    if (exposure >= 0.0) estimator.see(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
   }
-  const auto target = track.target(1.0);
-  ASSERT_TRUE(target) << track.lastUpdate().why_not;
-  EXPECT_EQ(track.lastUpdate().why_not, "");
+  const auto target = estimator.target(1.0);
+  ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
+  EXPECT_EQ(estimator.lastUpdate().why_not, "");
   EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.02);
   EXPECT_NEAR(geometry::yawOf(target->T_odom_window.linear()), 0.3, 0.02);
   EXPECT_NEAR(target->stamp_sec, 29 / 30.0 - 0.05, 1e-9);
@@ -54,7 +54,7 @@ TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
 }
 
 TEST(TargetEstimator, TheMountingIsUnverifiedUntilItWasWatchedOrIsSaidToBeSure) {
-  EXPECT_NE(tracker().unverified(), "");
+  EXPECT_NE(defaultEstimator().unverified(), "");
   FilterParams sure;
   sure.mounting_yaw_sigma_rad = 0.001;
   EXPECT_EQ(TargetEstimator(PoseParams(), sure, TargetEstimatorParams()).unverified(), "");
@@ -66,56 +66,56 @@ TEST(TargetEstimator, WhereTheMountingIsSaidToBeSureTheWayFlownDoesNotJudgeTheSi
   FilterParams sure;
   sure.mounting_yaw_sigma_rad = 0.001;
   for (const bool is_sure : {false, true}) {
-    TargetEstimator track(PoseParams(), is_sure ? sure : FilterParams(), TargetEstimatorParams());
+    TargetEstimator estimator(PoseParams(), is_sure ? sure : FilterParams(), TargetEstimatorParams());
     for (int i = 0; i <= 90; ++i) {
       const double now = i / 30.0, y = 0.6 * now;
-      track.addOdometry(now, vehicleAt(1.5 * y));
-      track.see(sighting(vehicleAt(y), now), kCamera, kMounting);
+      estimator.addOdometry(now, vehicleAt(1.5 * y));
+      estimator.see(sighting(vehicleAt(y), now), kCamera, kMounting);
     }
-    EXPECT_EQ(track.frames().what.find("opening looks like") == std::string::npos, is_sure)
-        << track.frames().what;
+    EXPECT_EQ(estimator.frames().what.find("opening looks like") == std::string::npos, is_sure)
+        << estimator.frames().what;
   }
 }
 
 TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
-  auto track = tracker();
-  track.addOdometry(0.0, vehicleAt(0.0));
-  track.see(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
-  EXPECT_FALSE(track.target(0.03));
-  track.addOdometry(0.06, vehicleAt(0.06));
-  EXPECT_TRUE(track.target(0.06));
+  auto estimator = defaultEstimator();
+  estimator.addOdometry(0.0, vehicleAt(0.0));
+  estimator.see(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
+  EXPECT_FALSE(estimator.target(0.03));
+  estimator.addOdometry(0.06, vehicleAt(0.06));
+  EXPECT_TRUE(estimator.target(0.06));
 }
 
 TEST(TargetEstimator, WithoutOdometryNearTheExposureThereIsNoTarget) {
-  auto track = tracker();
-  track.see(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
-  track.addOdometry(0.0, vehicleAt(0.0));
-  track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
-  EXPECT_FALSE(track.target(1.03));
-  EXPECT_EQ(track.lastUpdate().why_not, "no odometry near the exposure");
+  auto estimator = defaultEstimator();
+  estimator.see(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
+  estimator.addOdometry(0.0, vehicleAt(0.0));
+  estimator.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+  EXPECT_FALSE(estimator.target(1.03));
+  EXPECT_EQ(estimator.lastUpdate().why_not, "no odometry near the exposure");
 }
 
 TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
-  auto track = tracker();
+  auto estimator = defaultEstimator();
   for (int i = 0; i < 10; ++i) {
-    track.addOdometry(0.03 * i, vehicleAt(0.0));
-    track.see(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
+    estimator.addOdometry(0.03 * i, vehicleAt(0.0));
+    estimator.see(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
   }
-  ASSERT_TRUE(track.target(0.3));
-  track.addOdometry(0.3, vehicleAt(5.0));
-  EXPECT_FALSE(track.target(0.3));
+  ASSERT_TRUE(estimator.target(0.3));
+  estimator.addOdometry(0.3, vehicleAt(5.0));
+  EXPECT_FALSE(estimator.target(0.3));
 }
 
 /// Flies 2 m sideways past the window with exact images; the stated mounting may be wrong.
 TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEstimatorParams& params,
                               const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
-  TargetEstimator track(pose, estimation::FilterParams(), params);
+  TargetEstimator estimator(pose, estimation::FilterParams(), params);
   for (int i = 0; i <= 90; ++i) {
     const double now = i / 30.0, y = 0.6 * now;
-    track.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
-    track.see(sighting(vehicleAt(y), now), kCamera, mounting_told);
+    estimator.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
+    estimator.see(sighting(vehicleAt(y), now), kCamera, mounting_told);
   }
-  return track;
+  return estimator;
 }
 
 estimation::PoseParams unknownSize() {
@@ -127,9 +127,9 @@ estimation::PoseParams unknownSize() {
 }
 
 TEST(TargetEstimator, FindsOutASizeThatIsNotKnown) {
-  const auto track = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
-  const auto target = track.target(3.0);
-  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  const auto estimator = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
+  const auto target = estimator.target(3.0);
+  ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
   EXPECT_NEAR(target->opening.width_m, 1.2, 0.06);
   EXPECT_NEAR(target->opening.height_m, 1.0, 0.05);
   EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.25);
@@ -141,27 +141,27 @@ TEST(TargetEstimator, SaysThatWidthAndHeightDoNotFit) {
   estimation::PoseParams swapped;
   swapped.opening_width_m = 1.0;
   swapped.opening_height_m = 1.2;
-  const auto track = flownSideways(swapped, TargetEstimatorParams(), kMounting);
-  EXPECT_NE(track.lastUpdate().why_not.find("an opening of 1.00 x 1.20 m"), std::string::npos)
-      << track.lastUpdate().why_not;
+  const auto estimator = flownSideways(swapped, TargetEstimatorParams(), kMounting);
+  EXPECT_NE(estimator.lastUpdate().why_not.find("an opening of 1.00 x 1.20 m"), std::string::npos)
+      << estimator.lastUpdate().why_not;
 }
 
 TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
   estimation::PoseParams twice;  // expects a window twice as large
   twice.opening_width_m = 2.4;
   twice.opening_height_m = 2.0;
-  auto track = flownSideways(twice, TargetEstimatorParams(), kMounting);
-  auto target = track.target(3.0);
-  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  auto estimator = flownSideways(twice, TargetEstimatorParams(), kMounting);
+  auto target = estimator.target(3.0);
+  ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
   ASSERT_TRUE(target->other_window);
   EXPECT_NEAR(*target->other_window, 0.5, 0.1);
   EXPECT_NE(target->approach_forbidden, "");
 
   auto next = sighting(vehicleAt(1.8), 3.03);
   next.target_id = 7;
-  track.addOdometry(3.03, vehicleAt(1.8));
-  track.see(next, kCamera, kMounting);
-  target = track.target(3.03);
+  estimator.addOdometry(3.03, vehicleAt(1.8));
+  estimator.see(next, kCamera, kMounting);
+  target = estimator.target(3.03);
   ASSERT_TRUE(target);
   EXPECT_FALSE(target->other_window);
   EXPECT_EQ(target->approach_forbidden, "");
@@ -172,14 +172,14 @@ TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
 }
 
 TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
-  auto track = TargetEstimator(unknownSize(), estimation::FilterParams(), TargetEstimatorParams());
+  auto estimator = TargetEstimator(unknownSize(), estimation::FilterParams(), TargetEstimatorParams());
   for (int i = 0; i < 30; ++i) {
-    track.addOdometry(i / 30.0, vehicleAt(0.0));
-    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addOdometry(i / 30.0, vehicleAt(0.0));
+    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
-  ASSERT_TRUE(track.target(1.0));
-  EXPECT_EQ(track.target(1.0)->fit, estimation::Fit::kUnknown);
-  EXPECT_NE(track.target(1.0)->approach_forbidden.find("UNKNOWN"), std::string::npos);
+  ASSERT_TRUE(estimator.target(1.0));
+  EXPECT_EQ(estimator.target(1.0)->fit, estimation::Fit::kUnknown);
+  EXPECT_NE(estimator.target(1.0)->approach_forbidden.find("UNKNOWN"), std::string::npos);
   TargetEstimatorParams broad;
   broad.needed.width_m = 1.25;
   const auto narrow = flownSideways(estimation::PoseParams(), broad, kMounting);
@@ -189,14 +189,14 @@ TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
 
 TEST(TargetEstimator, ForbidsTheApproachWhileManyImagesContradictTheWindow) {
   for (const double aside_m : {0.0, 0.5}) {  // every second image shows another place
-    auto track = tracker();
+    auto estimator = defaultEstimator();
     for (int i = 0; i <= 60; ++i) {
       const double now = i / 30.0;
-      track.addOdometry(now, vehicleAt(0.0), Eigen::Vector3d(0, 0, 0));
-      track.see(sighting(vehicleAt(i % 2 == 0 ? 0.0 : aside_m), now), kCamera, kMounting);
+      estimator.addOdometry(now, vehicleAt(0.0), Eigen::Vector3d(0, 0, 0));
+      estimator.see(sighting(vehicleAt(i % 2 == 0 ? 0.0 : aside_m), now), kCamera, kMounting);
     }
-    const auto target = track.target(2.0);
-    ASSERT_TRUE(target) << track.lastUpdate().why_not;
+    const auto target = estimator.target(2.0);
+    ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
     EXPECT_EQ(target->approach_forbidden.find("images contradict") != std::string::npos, aside_m > 0.0)
         << target->approach_forbidden;
   }
@@ -217,66 +217,66 @@ TEST(TargetEstimator, ForbidsTheApproachWithFramesThatAreNotAsTold) {
 }
 
 TEST(TargetEstimator, ForbidsTheApproachWithAHeadingFurtherOffThanAnyCompass) {
-  const auto track = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
-  auto window = *track.filtered(3.0);
+  const auto estimator = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
+  auto window = *estimator.filtered(3.0);
   window.camera_turn.covariance = 0.0001 * Eigen::Matrix3d::Identity();
   for (const double turn_rad : {-0.15, -0.08, 0.08, 0.15}) {
     window.camera_turn.turn_rad.y() = turn_rad;
-    EXPECT_EQ(track.approachForbidden(window),
+    EXPECT_EQ(estimator.approachForbidden(window),
               std::abs(turn_rad) > 0.1 ? "camera's yaw or odometry's heading off by about 9 deg" : "");
   }
   window.camera_turn.covariance *= 25.0;
-  EXPECT_EQ(track.approachForbidden(window), "") << "0.05 rad of spread: nothing is certain";
+  EXPECT_EQ(estimator.approachForbidden(window), "") << "0.05 rad of spread: nothing is certain";
 }
 
 TEST(TargetEstimator, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) {
-  auto track = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
-  const auto frames = track.frames();
-  track.addOdometry(3.03, vehicleAt(7.0));
-  EXPECT_FALSE(track.target(3.03));
-  EXPECT_EQ(track.frames(), frames);
+  auto estimator = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
+  const auto frames = estimator.frames();
+  estimator.addOdometry(3.03, vehicleAt(7.0));
+  EXPECT_FALSE(estimator.target(3.03));
+  EXPECT_EQ(estimator.frames(), frames);
   for (int i = 0; i < 3; ++i) {
-    track.addOdometry(3.1 + i / 30.0, vehicleAt(1.8));
-    if (i > 0) track.see(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
+    estimator.addOdometry(3.1 + i / 30.0, vehicleAt(1.8));
+    if (i > 0) estimator.see(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
   }
-  ASSERT_TRUE(track.target(3.2)) << track.lastUpdate().why_not;
-  EXPECT_NEAR(track.target(3.2)->opening.width_m, 1.2, 0.1);
+  ASSERT_TRUE(estimator.target(3.2)) << estimator.lastUpdate().why_not;
+  EXPECT_NEAR(estimator.target(3.2)->opening.width_m, 1.2, 0.1);
 }
 
 TargetEstimator hovering(double until_sec) {
-  auto track = tracker();
+  auto estimator = defaultEstimator();
   for (int i = 0; i <= 30.0 * until_sec; ++i) {
-    track.addOdometry(i / 30.0, vehicleAt(0.0));
-    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addOdometry(i / 30.0, vehicleAt(0.0));
+    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
-  return track;
+  return estimator;
 }
 
 TEST(TargetEstimator, AnOdometrySampleThatComesLateChangesNothing) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double stamp : {0.98, 0.6, -infinity}) {
-    auto track = hovering(1.0);
-    const int updates = track.target(1.0)->updates;
-    track.addOdometry(stamp, vehicleAt(0.0));
-    track.addOdometry(1.03, vehicleAt(0.0));
-    track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
-    ASSERT_TRUE(track.target(1.03)) << stamp;
-    EXPECT_EQ(track.target(1.03)->updates, updates + 1) << stamp;
+    auto estimator = hovering(1.0);
+    const int updates = estimator.target(1.0)->updates;
+    estimator.addOdometry(stamp, vehicleAt(0.0));
+    estimator.addOdometry(1.03, vehicleAt(0.0));
+    estimator.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+    ASSERT_TRUE(estimator.target(1.03)) << stamp;
+    EXPECT_EQ(estimator.target(1.03)->updates, updates + 1) << stamp;
   }
-  auto track = hovering(3.0);
-  track.addOdometry(1.0, vehicleAt(0.0));
-  EXPECT_FALSE(track.target(3.0)) << "two seconds back are another time";
+  auto estimator = hovering(3.0);
+  estimator.addOdometry(1.0, vehicleAt(0.0));
+  EXPECT_FALSE(estimator.target(3.0)) << "two seconds back are another time";
 }
 
 TEST(TargetEstimator, AHeadingThatJumpsStartsAnew) {
-  auto track = hovering(1.0);
+  auto estimator = hovering(1.0);
   Eigen::Isometry3d turned = vehicleAt(0.0);
   turned.linear() = geometry::yawRotation(0.15) * turned.linear();
-  track.addOdometry(1.03, turned);
-  EXPECT_TRUE(track.target(1.03)) << "a vehicle can turn as fast";
+  estimator.addOdometry(1.03, turned);
+  EXPECT_TRUE(estimator.target(1.03)) << "a vehicle can turn as fast";
   turned.linear() = geometry::yawRotation(0.9) * turned.linear();
-  track.addOdometry(1.06, turned);
-  EXPECT_FALSE(track.target(1.06));
+  estimator.addOdometry(1.06, turned);
+  EXPECT_FALSE(estimator.target(1.06));
 }
 
 /// Pitch down by this angle.
@@ -287,12 +287,12 @@ Eigen::Isometry3d pitched(double rad) {
 }
 
 TEST(TargetEstimator, WithoutRecentAttitudeThatOfTheOdometryCounts) {
-  auto with_imu = tracker(), without = tracker();
+  auto with_imu = defaultEstimator(), without = defaultEstimator();
   with_imu.addAttitude(0.0, Eigen::Quaterniond(pitched(0.0).linear()));
-  for (auto* track : {&with_imu, &without}) {
-    track->addOdometry(1.0, pitched(0.25));
-    track->see(sighting(pitched(0.25), 1.0), kCamera, kMounting);
-    ASSERT_TRUE(track->lastUpdate().pose.estimate) << track->lastUpdate().pose.detail;
+  for (auto* estimator : {&with_imu, &without}) {
+    estimator->addOdometry(1.0, pitched(0.25));
+    estimator->see(sighting(pitched(0.25), 1.0), kCamera, kMounting);
+    ASSERT_TRUE(estimator->lastUpdate().pose.estimate) << estimator->lastUpdate().pose.detail;
   }
   EXPECT_NEAR(without.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.002);
   EXPECT_EQ(with_imu.lastUpdate().pose.estimate->yaw_rad, without.lastUpdate().pose.estimate->yaw_rad);
@@ -300,66 +300,66 @@ TEST(TargetEstimator, WithoutRecentAttitudeThatOfTheOdometryCounts) {
 
 TEST(TargetEstimator, AnAttitudeInOtherAxesThanTheOdometryIsNamedAndNotUsed) {
   const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));  // north-east-down
-  auto track = tracker();
+  auto estimator = defaultEstimator();
   for (int i = 0; i < 60; ++i) {
-    track.addOdometry(i / 30.0, vehicleAt(0.0));
-    track.addAttitude(i / 30.0, down);
-    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addOdometry(i / 30.0, vehicleAt(0.0));
+    estimator.addAttitude(i / 30.0, down);
+    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
-  ASSERT_TRUE(track.target(2.0)) << track.lastUpdate().why_not;
-  ASSERT_TRUE(track.lastUpdate().pose.estimate);
-  EXPECT_NEAR(track.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.01);
-  EXPECT_EQ(track.frames().state, estimation::FramesVerdict::kWrong);
-  EXPECT_NE(track.target(2.0)->approach_forbidden.find("attitude"), std::string::npos);
+  ASSERT_TRUE(estimator.target(2.0)) << estimator.lastUpdate().why_not;
+  ASSERT_TRUE(estimator.lastUpdate().pose.estimate);
+  EXPECT_NEAR(estimator.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.01);
+  EXPECT_EQ(estimator.frames().state, estimation::FramesVerdict::kWrong);
+  EXPECT_NE(estimator.target(2.0)->approach_forbidden.find("attitude"), std::string::npos);
   for (int i = 60; i < 120; ++i) {
-    track.addOdometry(i / 30.0, vehicleAt(0.0));
-    track.addAttitude(i / 30.0, Eigen::Quaterniond(vehicleAt(0.0).linear()));
-    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addOdometry(i / 30.0, vehicleAt(0.0));
+    estimator.addAttitude(i / 30.0, Eigen::Quaterniond(vehicleAt(0.0).linear()));
+    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
-  EXPECT_NE(track.frames().state, estimation::FramesVerdict::kWrong) << track.frames().what;
+  EXPECT_NE(estimator.frames().state, estimation::FramesVerdict::kWrong) << estimator.frames().what;
 }
 
 TEST(TargetEstimator, AnObservationWithoutBordersThatGivesNoPoseIsNotUsed) {
-  auto track = hovering(1.0);
+  auto estimator = hovering(1.0);
   auto skewed = sighting(vehicleAt(0.0), 1.03);
-  track.addOdometry(1.03, vehicleAt(0.0));
+  estimator.addOdometry(1.03, vehicleAt(0.0));
   for (int i = 0; i < 4; ++i) {
     skewed.edges[i] = detection::Edge();
     skewed.corner_covariance[i] = 50.0 * Eigen::Matrix2d::Identity();
     skewed.corners[i].x() += i < 2 ? 6.0 : -6.0;
   }
-  track.see(skewed, kCamera, kMounting);
-  EXPECT_FALSE(track.lastUpdate().pose.estimate);
-  EXPECT_FALSE(track.lastUpdate().why_not.empty());
-  EXPECT_EQ(track.lastUpdate().why_not, track.lastUpdate().pose.detail);
+  estimator.see(skewed, kCamera, kMounting);
+  EXPECT_FALSE(estimator.lastUpdate().pose.estimate);
+  EXPECT_FALSE(estimator.lastUpdate().why_not.empty());
+  EXPECT_EQ(estimator.lastUpdate().why_not, estimator.lastUpdate().pose.detail);
 }
 
 TEST(TargetEstimator, AnotherTargetHasNoMeasuredSizeYet) {
-  auto track = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
-  ASSERT_TRUE(track.measuredSize());
-  track.addOdometry(3.2, vehicleAt(1.8));
+  auto estimator = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
+  ASSERT_TRUE(estimator.measuredSize());
+  estimator.addOdometry(3.2, vehicleAt(1.8));
   auto other = sighting(vehicleAt(1.8), 3.2);
   other.target_id = 7;
-  track.see(other, kCamera, kMounting);
-  track.addOdometry(3.4, vehicleAt(2.0));
+  estimator.see(other, kCamera, kMounting);
+  estimator.addOdometry(3.4, vehicleAt(2.0));
   other = sighting(vehicleAt(2.0), 3.4);
   other.target_id = 8;
-  track.see(other, kCamera, kMounting);
-  EXPECT_FALSE(track.measuredSize());
+  estimator.see(other, kCamera, kMounting);
+  EXPECT_FALSE(estimator.measuredSize());
 }
 
 TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
-  auto track = tracker();
+  auto estimator = defaultEstimator();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  track.addOdometry(0.0, vehicleAt(nan));
-  track.addOdometry(nan, vehicleAt(0.0));
-  track.addOdometry(0.0, vehicleAt(0.0));
-  track.addAttitude(0.0, Eigen::Quaterniond(nan, 0, 0, 1));
+  estimator.addOdometry(0.0, vehicleAt(nan));
+  estimator.addOdometry(nan, vehicleAt(0.0));
+  estimator.addOdometry(0.0, vehicleAt(0.0));
+  estimator.addAttitude(0.0, Eigen::Quaterniond(nan, 0, 0, 1));
   auto window = sighting(vehicleAt(0.0), 0.0);
   window.corners[2].x() = nan;
-  track.see(window, kCamera, kMounting);
-  EXPECT_FALSE(track.lastUpdate().why_not.empty());
-  EXPECT_FALSE(track.target(0.0));
+  estimator.see(window, kCamera, kMounting);
+  EXPECT_FALSE(estimator.lastUpdate().why_not.empty());
+  EXPECT_FALSE(estimator.target(0.0));
   TargetEstimatorParams params;
   params.openness.sure_log_odds = -1.0;
   EXPECT_THROW(TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), params),

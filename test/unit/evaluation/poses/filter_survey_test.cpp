@@ -27,8 +27,8 @@ TEST(FilterSurvey, NormalisedErrorOfTwoHundredApproachesLiesInItsBand) {
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     auto script = drawApproach(seed, SizeTold::kAll);
     SyntheticApproach approach(seed, script, estimation::FilterParams());
-    estimation::TargetEstimator tracker(poseParams(SizeTold::kAll), estimation::FilterParams(), {});
-    const auto samples = follow(approach, tracker, script.opening);
+    estimation::TargetEstimator estimator(poseParams(SizeTold::kAll), estimation::FilterParams(), {});
+    const auto samples = follow(approach, estimator, script.opening);
     const auto mean = meanNees(samples);
     ASSERT_TRUE(mean) << seed;
     sum += *mean;
@@ -58,13 +58,13 @@ Sideways flySideways(std::uint32_t seed, const estimation::FilterParams& errors,
   script.waypoints_m = {from, from + Eigen::Vector3d(0.0, 1.2 * side, 0.0)};
   script.opening = {width_m, random.uniform(0.7, 1.4)};
   SyntheticApproach approach(seed, script, errors);
-  estimation::TargetEstimator tracker(poseParams(SizeTold::kNothing), errors, {});
+  estimation::TargetEstimator estimator(poseParams(SizeTold::kNothing), errors, {});
   while (approach.flownM() < 1.0 && approach.advance()) {
     for (const auto& odometry : approach.odometry())
-      tracker.addOdometry(odometry.stamp_sec, odometry.T_odom_base);
-    if (approach.isInView()) tracker.see(approach.window(), approach.camera(), approach.T_base_camera());
+      estimator.addOdometry(odometry.stamp_sec, odometry.T_odom_base);
+    if (approach.isInView()) estimator.see(approach.window(), approach.camera(), approach.T_base_camera());
   }
-  return {script.opening, tracker.filtered(approach.timeSec())};
+  return {script.opening, estimator.filtered(approach.timeSec())};
 }
 
 // Odometry with a drift of 0.01 m/sqrt(s), like the world's.
