@@ -13,8 +13,8 @@ namespace {
 using geometry::Quadrilateral;
 
 constexpr double kSameStamp_sec = 1e-6, kLongest_sec = 10.0;
-constexpr std::size_t kMaxLooks = 600;
-constexpr double kSays = 1.0;        // log odds below which a stretch decides nothing
+constexpr std::size_t kMaxViews = 600;
+constexpr double kMinLogOdds = 1.0;  // log odds below which a stretch decides nothing
 constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, in addition to kMaxMisfit
 constexpr double kMaxClosed = 0.15;  // of the middle that is needed
 constexpr double kMinQuarter = 0.5, kMinSide = 0.3;  // open part of each quarter and each side
@@ -68,9 +68,9 @@ OpennessJudge::OpennessJudge(const OpennessParams& params, const geometry::Openi
 }
 
 void OpennessJudge::reset() {
-  looks_.clear();
-  stretch_.begin(-1.0);
-  says_ = StretchSays();
+  views_.clear();
+  evidence_.begin(-1.0);
+  estimate_ = KeyframeEstimate();
   past_ = Count();
   cells_.clear();
   verdict_ = OpennessVerdict();
@@ -78,29 +78,29 @@ void OpennessJudge::reset() {
 
 OpennessJudge::Count OpennessJudge::counted() const {
   Count all = past_;
-  all.log_odds = std::clamp(all.log_odds + says_.log_odds, -kMaxTotal, kMaxTotal);
-  all.open += says_.log_odds >= kSays;
-  all.closed += says_.log_odds <= -kSays;
-  all.moving += says_.is_moving;
+  all.log_odds = std::clamp(all.log_odds + estimate_.log_odds, -kMaxTotal, kMaxTotal);
+  all.open += estimate_.log_odds >= kMinLogOdds;
+  all.closed += estimate_.log_odds <= -kMinLogOdds;
+  all.moving += estimate_.is_moving;
   return all;
 }
 
 // Ends a stretch and keeps its last result.
 void OpennessJudge::close() {
   past_ = counted();
-  says_ = StretchSays();
+  estimate_ = KeyframeEstimate();
 }
 
 void OpennessJudge::remember(const OpennessView& view) {
-  looks_.push_back({view.window.stamp_sec, view.T_odom_camera});
-  while (looks_.size() > kMaxLooks || view.window.stamp_sec - looks_.front().stamp_sec > kLongest_sec)
-    looks_.pop_front();
+  views_.push_back({view.window.stamp_sec, view.T_odom_camera});
+  while (views_.size() > kMaxViews || view.window.stamp_sec - views_.front().stamp_sec > kLongest_sec)
+    views_.pop_front();
 }
 
 void OpennessJudge::see(const OpennessView& view) {
   const detection::WindowObservation& window = view.window;
   const bool is_other = window.target_id != target_id_;
-  if (is_other || (!looks_.empty() && window.stamp_sec < looks_.back().stamp_sec)) reset();
+  if (is_other || (!views_.empty() && window.stamp_sec < views_.back().stamp_sec)) reset();
   target_id_ = window.target_id;
   if (!window.whole() || !std::isfinite(window.stamp_sec) || !geometry::isValidPose(view.T_odom_camera) ||
       !geometry::isValidPose(view.T_odom_window) ||
@@ -110,11 +110,11 @@ void OpennessJudge::see(const OpennessView& view) {
   remember(view);
   if (window.interior.empty()) return;
   const double key_sec = window.interior.key_stamp_sec;
-  if (std::abs(key_sec - stretch_.keyStamp()) > kSameStamp_sec) close(), stretch_.begin(key_sec);
-  const auto key = std::find_if(looks_.begin(), looks_.end(), [&](const Look& look) {
-    return std::abs(look.stamp_sec - key_sec) < kSameStamp_sec;
+  if (std::abs(key_sec - evidence_.keyStamp()) > kSameStamp_sec) close(), evidence_.begin(key_sec);
+  const auto key = std::find_if(views_.begin(), views_.end(), [&](const View& earlier) {
+    return std::abs(earlier.stamp_sec - key_sec) < kSameStamp_sec;
   });
-  if (key != looks_.end() && window.stamp_sec > key_sec) compare(view, key->T_odom_camera);
+  if (key != views_.end() && window.stamp_sec > key_sec) compare(view, key->T_odom_camera);
   conclude();
 }
 
@@ -129,14 +129,15 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
   if (!pair || pair->baselineM() < kMinBaseline_m) return;
   const Eigen::Vector3d eye = T_odom_window.inverse() * T_odom_camera.translation();
   for (const detection::InteriorPoint& point : window.interior.points) {
-    const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px), point.normal);
-    if (!look) continue;
-    const bool through = passesReveal(look->place, eye, opening, params_.reveal_depth_m);
-    stretch_.see(point.id, *look, through, point.beside);
+    const auto parallax =
+        pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px), point.normal);
+    if (!parallax) continue;
+    const bool through = passesReveal(parallax->place, eye, opening, params_.reveal_depth_m);
+    evidence_.see(point.id, *parallax, through, point.beside);
   }
   const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
-  stretch_.mark(parts, cells_);
-  says_ = stretch_.says(parts, pair->distanceM(), params_);
+  evidence_.mark(parts, cells_);
+  estimate_ = evidence_.estimate(parts, pair->distanceM(), params_);
 }
 
 void OpennessJudge::conclude() {
@@ -145,26 +146,26 @@ void OpennessJudge::conclude() {
   OpennessVerdict verdict;
   verdict.log_odds = all.log_odds;
   verdict.open_share = share.open;
-  verdict.points = says_.points;
+  verdict.points = estimate_.points;
   verdict.stretches = all.open + all.closed;
-  verdict.has_depth = says_.depth_sigma_m > 0.0 || verdict_.has_depth;
-  const bool is_new = says_.depth_sigma_m > 0.0;
-  verdict.depth_behind_m = is_new ? says_.depth_m : verdict_.depth_behind_m;
-  verdict.depth_sigma_m = is_new ? says_.depth_sigma_m : verdict_.depth_sigma_m;
+  verdict.has_depth = estimate_.depth_sigma_m > 0.0 || verdict_.has_depth;
+  const bool is_new = estimate_.depth_sigma_m > 0.0;
+  verdict.depth_behind_m = is_new ? estimate_.depth_m : verdict_.depth_behind_m;
+  verdict.depth_sigma_m = is_new ? estimate_.depth_sigma_m : verdict_.depth_sigma_m;
   const bool sure_open =
       all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
-  const bool most_moves = says_.unsteady > says_.points;
+  const bool most_moves = estimate_.unsteady > estimate_.points;
   // A stretch with an uncertain depth revokes nothing.
-  const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
+  const bool may_be_a_room = estimate_.depth_m - estimate_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
     verdict.reason = formatted("the surface within the border moves with it: %.2f +- %.2f m behind it",
                                verdict.depth_behind_m, verdict.depth_sigma_m);
-  } else if (says_.is_moving && (most_moves || !sure_open)) {
-    verdict.reason = formatted("%d of %d points do not move like a static scene", says_.unsteady,
-                               says_.unsteady + says_.points);
-  } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {
+  } else if (estimate_.is_moving && (most_moves || !sure_open)) {
+    verdict.reason = formatted("%d of %d points do not move like a static scene", estimate_.unsteady,
+                               estimate_.unsteady + estimate_.points);
+  } else if (estimate_.is_too_deep && !(sure_open && may_be_a_room)) {
     verdict.reason = formatted("deeper than a room: %.1f m; a mirror looks the same", verdict.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
     verdict.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
@@ -172,7 +173,7 @@ void OpennessJudge::conclude() {
     verdict.reason =
         formatted("something moved on %d stretches of the flight, log odds %.1f", all.moving, all.log_odds);
   } else if (!sure_open) {
-    verdict.reason = formatted("%d points followed, log odds %.1f", says_.points, all.log_odds);
+    verdict.reason = formatted("%d points followed, log odds %.1f", estimate_.points, all.log_odds);
   } else if (share.closed > kMaxClosed) {
     verdict.reason =
         formatted("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);

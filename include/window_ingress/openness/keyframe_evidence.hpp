@@ -21,15 +21,15 @@ struct DepthParts {
   double logOdds(double part, double sigma) const;
 };
 
-/// Evidence from one point within the opening since its keyframe. All looks share the errors of the keyframe,
-/// so the best look counts, not their sum. The other looks must agree with it, each for the distance flown by
+/// Evidence from one point within the opening since its keyframe. All views share the errors of the keyframe,
+/// so the best view counts, not their sum. The other views must agree with it, each for the distance flown by
 /// then; a border that jumps to another edge, or texture that moves by itself, does not.
 class TrackEvidence {
  public:
-  void see(const PointParallax& look);
+  void see(const PointParallax& parallax);
   const PointParallax& best() const { return best_; }
   const PointParallax& last() const { return last_; }
-  /// All looks agree with a point that stands still.
+  /// All views agree with a point that stands still.
   bool isSteady(double max_sigmas) const;
   bool isTested() const { return samples_ > 1; }
 
@@ -40,14 +40,14 @@ class TrackEvidence {
     double part, sigma, gain_px;
   };
   PointParallax best_, last_;
-  int looks_ = 0, samples_ = 0;
+  int views_ = 0, samples_ = 0;
   std::array<Sample, kSamples> ring_{};
 };
 
 constexpr double kMaxLogOdds = 4.0;  ///< limit for one stretch
 
 /// Result of one stretch of the flight, from a keyframe to the next.
-struct StretchSays {
+struct KeyframeEstimate {
   double log_odds = 0.0;                      ///< open over closed, within `kMaxLogOdds`; 0: undecided
   int points = 0;                             ///< points that stand still and were seen from enough places
   int unsteady = 0;                           ///< that do not stand still
@@ -65,10 +65,10 @@ class KeyframeEvidence {
 
   /// \param through the line of sight would reach the room past the opening's inner faces
   /// \param beside cells beside the point, as in `InteriorPoint::beside`
-  void see(int id, const PointParallax& look, bool through, std::uint64_t beside);
+  void see(int id, const PointParallax& parallax, bool through, std::uint64_t beside);
   /// Enters the points that stand still into the cells.
   void mark(const DepthParts& parts, OpeningCells& cells);
-  StretchSays says(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
+  KeyframeEstimate estimate(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
 
  private:
   struct Entry {

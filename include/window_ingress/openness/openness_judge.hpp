@@ -26,7 +26,7 @@ struct OpennessView {
 /// Decides whether the opening is open, by the motion of the texture within it against the border's plane.
 ///
 /// The flight consists of stretches, each from a keyframe to the next. Within a stretch evidence is not
-/// summed: the best look at each point counts, and the stretch's verdict is their median, limited in size.
+/// summed: the best view of each point counts, and the stretch's verdict is their median, limited in size.
 /// Stretches are summed, because each has its own borders; a single one never decides. OPEN also needs: depth
 /// seen through all four quarters of the middle that the vehicle needs, hardly anything of it closed, and no
 /// depth beyond that of a room.
@@ -44,7 +44,7 @@ class OpennessJudge {
   void reset();
 
  private:
-  struct Look {
+  struct View {
     double stamp_sec;
     Eigen::Isometry3d T_odom_camera;
   };
@@ -61,10 +61,10 @@ class OpennessJudge {
 
   OpennessParams params_;
   geometry::OpeningSize needed_, opening_;
-  std::deque<Look> looks_;
+  std::deque<View> views_;
   std::uint32_t target_id_ = 0;
-  KeyframeEvidence stretch_;
-  StretchSays says_;
+  KeyframeEvidence evidence_;
+  KeyframeEstimate estimate_;
   Count past_;
   OpeningCells cells_;
   OpennessVerdict verdict_;

@@ -39,15 +39,15 @@ double DepthParts::logOdds(double part, double sigma) const {
   return 0.5 * (closed * closed - open * open);
 }
 
-void TrackEvidence::see(const PointParallax& look) {
-  last_ = look;
-  if (looks_++ == 0 || look.part_sigma < best_.part_sigma) best_ = look;
-  const bool further = samples_ == 0 || look.gain_px > kGrowth * ring_[(samples_ - 1) % kSamples].gain_px;
-  if (further) ring_[samples_++ % kSamples] = {look.part, look.part_sigma, look.gain_px};
+void TrackEvidence::see(const PointParallax& parallax) {
+  last_ = parallax;
+  if (views_++ == 0 || parallax.part_sigma < best_.part_sigma) best_ = parallax;
+  const bool further = samples_ == 0 || parallax.gain_px > kGrowth * ring_[(samples_ - 1) % kSamples].gain_px;
+  if (further) ring_[samples_++ % kSamples] = {parallax.part, parallax.part_sigma, parallax.gain_px};
 }
 
 bool TrackEvidence::isSteady(double max_sigmas) const {
-  if (looks_ == 0 || std::abs(best_.across_px) > max_sigmas * best_.across_sigma_px) return false;
+  if (views_ == 0 || std::abs(best_.across_px) > max_sigmas * best_.across_sigma_px) return false;
   for (int i = 0; i < std::min(samples_, kSamples); ++i)
     if (std::abs(ring_[i].part - best_.part) > max_sigmas * std::hypot(ring_[i].sigma, best_.part_sigma))
       return false;
@@ -59,11 +59,11 @@ void KeyframeEvidence::begin(double key_stamp_sec) {
   entries_.clear();
 }
 
-void KeyframeEvidence::see(int id, const PointParallax& look, bool through, std::uint64_t beside) {
+void KeyframeEvidence::see(int id, const PointParallax& parallax, bool through, std::uint64_t beside) {
   if (id < 0 || id >= kMaxIds) return;
   if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
   Entry& entry = entries_[static_cast<std::size_t>(id)];
-  entry.track.see(look);
+  entry.track.see(parallax);
   entry.through = through;
   entry.beside = beside;
   entry.current = true;
@@ -82,16 +82,16 @@ void KeyframeEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
   cells.endImage();
 }
 
-StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
-                                   const OpennessParams& params) const {
-  StretchSays says;
+KeyframeEstimate KeyframeEvidence::estimate(const DepthParts& parts, double distance_m,
+                                            const OpennessParams& params) const {
+  KeyframeEstimate estimate;
   int too_deep = 0;  // points further behind than any room
   std::vector<double> odds, depths, sigmas;
   for (const Entry& entry : entries_) {
     if (!entry.track.isTested()) continue;
     const PointParallax& best = entry.track.best();
     if (!entry.track.isSteady(kMaxSigmas)) {
-      ++says.unsteady;
+      ++estimate.unsteady;
       continue;
     }
     const double log_odds = parts.logOdds(best.part, best.part_sigma);
@@ -101,16 +101,17 @@ StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
     sigmas.push_back(depthSigma(best.part, best.part_sigma, distance_m));
     too_deep += best.part - 2.0 * best.part_sigma > parts.open_to;
   }
-  says.points = static_cast<int>(odds.size());
-  const int all = says.points + says.unsteady;
-  says.is_moving = all >= kMinToMove && says.unsteady > kMaxUnsteady * all;
-  if (says.points < kMinPoints) return says;
-  says.depth_m = geometry::median(depths);
-  says.depth_sigma_m = geometry::median(sigmas);
-  says.is_too_deep = too_deep > kMaxTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
-  if (!says.is_moving) says.log_odds = std::clamp(geometry::median(odds), -kMaxLogOdds, kMaxLogOdds);
-  if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
-  return says;
+  estimate.points = static_cast<int>(odds.size());
+  const int all = estimate.points + estimate.unsteady;
+  estimate.is_moving = all >= kMinToMove && estimate.unsteady > kMaxUnsteady * all;
+  if (estimate.points < kMinPoints) return estimate;
+  estimate.depth_m = geometry::median(depths);
+  estimate.depth_sigma_m = geometry::median(sigmas);
+  estimate.is_too_deep =
+      too_deep > kMaxTooDeep * estimate.points || estimate.depth_m > params.max_depth_behind_m;
+  if (!estimate.is_moving) estimate.log_odds = std::clamp(geometry::median(odds), -kMaxLogOdds, kMaxLogOdds);
+  if (estimate.is_too_deep) estimate.log_odds = std::min(estimate.log_odds, 0.0);
+  return estimate;
 }
 
 }  // namespace window_ingress::openness

@@ -26,7 +26,7 @@ constexpr double kMaxGrowth = 1.25;     // of the window in the image, until the
 constexpr double kMaxKeyframeAge_sec = 4.0;
 constexpr int kMinTracked = 6;       // with fewer left the next keyframe is taken
 constexpr double kMinShared = 0.4;   // part of the keyframe's points that must be left
-constexpr double kSpacing = 0.05;    // between points [longer sides of the straightened image]
+constexpr double kSpacing = 0.05;    // between points [longer sides of the rectified image]
 constexpr double kMinAge_sec = 0.3;  // of a keyframe whose points were lost
 constexpr int kGradientBlock = 5;
 constexpr double kBlur_px = 0.8;  // against the noise of dark images
@@ -38,15 +38,15 @@ std::array<cv::Point2f, 4> toCv(const Quadrilateral& quad) {
 }
 
 // Rectangle with the quadrilateral's mean side lengths, scaled down to `max_side_px`.
-cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
+cv::Size rectifiedSize(const Quadrilateral& corners, double max_side_px) {
   const auto sides = geometry::sideLengths(corners);
   const double width = 0.5 * (sides[0] + sides[2]), height = 0.5 * (sides[1] + sides[3]);
   const double scale = std::min(1.0, max_side_px / std::max(width, height));
   return {static_cast<int>(std::lround(scale * width)), static_cast<int>(std::lround(scale * height))};
 }
 
-// Homography from the image to its straightened opening; the outermost pixels end at the opening's border.
-cv::Matx33d straightening(const Quadrilateral& corners, const cv::Size& size) {
+// Homography from the image to its rectified opening; the outermost pixels end at the opening's border.
+cv::Matx33d rectification(const Quadrilateral& corners, const cv::Size& size) {
   const auto from = toCv(corners);
   const float right = static_cast<float>(size.width) - 0.5f, bottom = static_cast<float>(size.height) - 0.5f;
   const std::array<cv::Point2f, 4> to{cv::Point2f(-0.5f, -0.5f), cv::Point2f(right, -0.5f),
@@ -71,7 +71,7 @@ bool isUsable(const WindowObservation& window) {
 struct InteriorKltTracker::Impl {
   struct Track {
     std::uint16_t id;
-    cv::Point2f key, now;  // in the straightened images
+    cv::Point2f key, now;  // in the rectified images
     cv::Point2f normal;    // of an edge; zero for a corner
     bool isEdge() const { return normal.x != 0.0f || normal.y != 0.0f; }
   };
@@ -82,7 +82,7 @@ struct InteriorKltTracker::Impl {
     return !has_key || window.target_id != target_id || !(window.stamp_sec > last_sec) ||
            window.stamp_sec - tracks.key_stamp_sec > 2.0 * kMaxKeyframeAge_sec;
   }
-  void straighten(const cv::Mat& image, const Quadrilateral& corners);
+  void rectify(const cv::Mat& image, const Quadrilateral& corners);
   void takeKey(const cv::Mat& image, const WindowObservation& window);
   void findPoints();
   void chooseChannel(const cv::Mat& image, const Quadrilateral& corners);
@@ -98,12 +98,12 @@ struct InteriorKltTracker::Impl {
   bool has_key = false;
   std::uint32_t target_id = 0;
   double last_sec = 0.0;
-  int channel = 1;          // channel of the image that is used
-  cv::Size size;            // of the straightened images
-  double key_scale = 1.0;   // keyframe pixels per straightened pixel
-  cv::Matx33d to_straight;  // of the last image
+  int channel = 1;           // channel of the image that is used
+  cv::Size size;             // of the rectified images
+  double key_scale = 1.0;    // keyframe pixels per rectified pixel
+  cv::Matx33d to_rectified;  // of the last image
   cv::Matx33d key_to_image;
-  cv::Mat cut, straight, key_straight, mask, contrast;
+  cv::Mat cut, rectified, key_rectified, mask, contrast;
   SlopeImage slopes;
   SmoothRegions regions;
   std::vector<cv::Mat> key_pyramid, pyramid;
@@ -115,11 +115,11 @@ struct InteriorKltTracker::Impl {
   detection::InteriorTracks tracks;
 };
 
-void InteriorKltTracker::Impl::straighten(const cv::Mat& image, const Quadrilateral& corners) {
-  to_straight = straightening(corners, size);
+void InteriorKltTracker::Impl::rectify(const cv::Mat& image, const Quadrilateral& corners) {
+  to_rectified = rectification(corners, size);
   const cv::Rect part = cv::boundingRect(toCv(corners)) & cv::Rect(0, 0, image.cols, image.rows);
   if (part.empty()) {
-    straight = cv::Mat::zeros(size, CV_8UC1);
+    rectified = cv::Mat::zeros(size, CV_8UC1);
     return;
   }
   if (image.channels() == 3)
@@ -127,18 +127,18 @@ void InteriorKltTracker::Impl::straighten(const cv::Mat& image, const Quadrilate
   else
     cut = image(part);
   const cv::Matx33d from_part(1, 0, part.x, 0, 1, part.y, 0, 0, 1);
-  cv::warpPerspective(cut, straight, to_straight * from_part, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::GaussianBlur(straight, straight, cv::Size(), kBlur_px);
+  cv::warpPerspective(cut, rectified, to_rectified * from_part, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(rectified, rectified, cv::Size(), kBlur_px);
 }
 
 void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
   has_key = false;
-  size = straightenedSize(window.corners, params.max_side_px);
+  size = rectifiedSize(window.corners, params.max_side_px);
   if (std::min(size.width, size.height) < kMinSide_px) return;
-  straighten(image, window.corners);
+  rectify(image, window.corners);
   if (image.channels() == 3) chooseChannel(image, window.corners);
-  cv::buildOpticalFlowPyramid(straight, key_pyramid, {kReach, kReach}, kLevels, true);
-  key_to_image = to_straight.inv();
+  cv::buildOpticalFlowPyramid(rectified, key_pyramid, {kReach, kReach}, kLevels, true);
+  key_to_image = to_rectified.inv();
   key_scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.key_stamp_sec = window.stamp_sec;
   tracks.key_corners = window.corners;
@@ -153,19 +153,19 @@ void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObserva
 void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
   int most = -1, best = 1;
   for (channel = 0; channel < 3; ++channel) {
-    straighten(image, corners);
-    slopes.take(straight);
+    rectify(image, corners);
+    slopes.take(rectified);
     const int steep = slopes.steeperThan(kMinEdgeSlope);
     if (steep > most) most = steep, best = channel;
   }
   channel = best;
-  straighten(image, corners);
+  rectify(image, corners);
 }
 
 // Finds the strongest corners, spread out. Skips the margin, because it may show the reveal.
 void InteriorKltTracker::Impl::findPoints() {
   points.clear();
-  cv::cornerMinEigenVal(straight, contrast, kGradientBlock);
+  cv::cornerMinEigenVal(rectified, contrast, kGradientBlock);
   const int side = std::max(2, static_cast<int>(std::lround(kMargin * std::max(size.width, size.height))));
   const cv::Rect inner(side, side, size.width - 2 * side, size.height - 2 * side);
   if (inner.width < kReach || inner.height < kReach) return;
@@ -173,15 +173,15 @@ void InteriorKltTracker::Impl::findPoints() {
   for (int y = inner.y; y < inner.y + inner.height; ++y)
     for (int x = inner.x; x < inner.x + inner.width; ++x)
       mask.at<unsigned char>(y, x) = contrast.at<float>(y, x) >= kMinContrast ? 255 : 0;
-  cv::goodFeaturesToTrack(straight, from, params.max_points, 1e-3,
+  cv::goodFeaturesToTrack(rectified, from, params.max_points, 1e-3,
                           std::max(4.0, kSpacing * std::max(size.width, size.height)), mask, kGradientBlock);
   for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p, {}});
   findEdges(inner);
 }
 
 void InteriorKltTracker::Impl::findEdges(const cv::Rect& inner) {
-  straight.copyTo(key_straight);
-  slopes.take(straight);
+  rectified.copyTo(key_rectified);
+  slopes.take(rectified);
   const int spacing = std::max(6, static_cast<int>(kSpacing * std::max(size.width, size.height)));
   const auto corners = static_cast<std::ptrdiff_t>(points.size());
   for (const EdgePoint& edge :
@@ -195,9 +195,9 @@ void InteriorKltTracker::Impl::findEdges(const cv::Rect& inner) {
 }
 
 bool InteriorKltTracker::Impl::flowAcross(Track& track) const {
-  const auto now = followAcross(key_straight, straight, {track.key, track.normal}, track.now);
+  const auto now = followAcross(key_rectified, rectified, {track.key, track.normal}, track.now);
   if (!now || !lies(*now)) return false;
-  const auto again = followAcross(straight, key_straight, {*now, track.normal}, track.key);
+  const auto again = followAcross(rectified, key_rectified, {*now, track.normal}, track.key);
   if (!again || lengthOf(*again - track.key) > kMaxReturn_px) return false;
   track.now = *now;
   return true;
@@ -225,7 +225,7 @@ void InteriorKltTracker::Impl::flowCorners() {
   if (from.empty()) return;
   back = from;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
-  cv::buildOpticalFlowPyramid(straight, pyramid, {kReach, kReach}, kLevels, true);
+  cv::buildOpticalFlowPyramid(rectified, pyramid, {kReach, kReach}, kLevels, true);
   cv::calcOpticalFlowPyrLK(key_pyramid, pyramid, from, to, there, error, {kReach, kReach}, kLevels, until,
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   cv::calcOpticalFlowPyrLK(pyramid, key_pyramid, to, back, here, error, {kReach, kReach}, kLevels, until,
@@ -241,11 +241,11 @@ void InteriorKltTracker::Impl::flowCorners() {
 }
 
 void InteriorKltTracker::Impl::report(WindowObservation& window) {
-  const cv::Matx33d to_image = to_straight.inv();
+  const cv::Matx33d to_image = to_rectified.inv();
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.sigma_px = kFlowSigma_px * std::max(scale, 1.0);
   tracks.points.clear();
-  regions.find(straight, params.surface_slope);
+  regions.find(rectified, params.surface_slope);
   for (const Track& track : points) {
     const Eigen::Vector2d now = mapped(to_image, track.now);
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();
@@ -282,7 +282,7 @@ void InteriorKltTracker::follow(const cv::Mat& image, WindowObservation& window)
   const bool is_other = impl_->isOther(window);
   impl_->last_sec = window.stamp_sec;
   if (is_other) return impl_->takeKey(image, window);
-  impl_->straighten(image, window.corners);
+  impl_->rectify(image, window.corners);
   if (!impl_->points.empty()) impl_->flow();
   impl_->report(window);
   if (impl_->isWornOut(window)) impl_->takeKey(image, window);

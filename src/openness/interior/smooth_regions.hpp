@@ -12,14 +12,14 @@
 
 namespace window_ingress::openness {
 
-/// Regions of the straightened opening without a visible edge. An edge belongs to the nearer of the two
+/// Regions of the rectified opening without a visible edge. An edge belongs to the nearer of the two
 /// surfaces that it separates, so the regions on both its sides are as deep as the edge, over their whole
 /// extent. The bare wall beside a cupboard, for example, is seen through the whole part of the opening that
 /// it fills. This does not hold where two surfaces look so alike that no edge is visible between them. So
 /// regions too dark or too bright to show an edge do not count.
 class SmoothRegions {
  public:
-  /// \param grey CV_8UC1, the straightened opening
+  /// \param grey CV_8UC1, the rectified opening
   /// \param most_slope largest slope of noise and shading [grey levels per pixel]
   void find(const cv::Mat& grey, double most_slope) {
     cv::pyrDown(grey, small_);

@@ -56,11 +56,11 @@ TEST(PlaneParallax, recoversTheDepthOfAnyPointExactly) {
     const auto pair = pairOf(key, now);
     ASSERT_TRUE(pair);
     EXPECT_NEAR(pair->distanceM(), key_m, 1e-9);
-    const auto look = pair->of(pixel(key, point), pixel(now, point));
-    if (!look) continue;  // no depth would move this point
-    EXPECT_NEAR(look->part, depth_m / (key_m + depth_m), 1e-6);
-    EXPECT_NEAR(look->across_px, 0.0, 1e-6);
-    EXPECT_GT(look->part_sigma, 0.0);
+    const auto parallax = pair->of(pixel(key, point), pixel(now, point));
+    if (!parallax) continue;  // no depth would move this point
+    EXPECT_NEAR(parallax->part, depth_m / (key_m + depth_m), 1e-6);
+    EXPECT_NEAR(parallax->across_px, 0.0, 1e-6);
+    EXPECT_GT(parallax->part_sigma, 0.0);
   }
 }
 
@@ -94,10 +94,10 @@ TEST(PlaneParallax, statesItsErrors) {
                                              {0.0, 0.0, flow_px});
     ASSERT_TRUE(pair);
     const Vector3d point(2.0, 0.25, -0.2);
-    const auto look =
+    const auto parallax =
         pair->of(pixel(key, point), pixel(now, point) + flow_px * Vector2d(unit(random), unit(random)));
-    ASSERT_TRUE(look);
-    squares += std::pow((look->part - 2.0 / 6.0) / look->part_sigma, 2) / kTrials;
+    ASSERT_TRUE(parallax);
+    squares += std::pow((parallax->part - 2.0 / 6.0) / parallax->part_sigma, 2) / kTrials;
   }
   EXPECT_GT(squares, 0.7);
   EXPECT_LT(squares, 1.3);
