@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/bags/bag_reading.hpp"
+#include "adapters/bags/bag_check.hpp"
 #include "launch_checks.hpp"
 
 namespace window_ingress::tools {

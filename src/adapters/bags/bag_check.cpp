@@ -1,3 +1,6 @@
+#include "adapters/bags/bag_check.hpp"
+
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -5,8 +8,6 @@
 #include <optional>
 #include <set>
 #include <vector>
-
-#include "adapters/bags/bag_reading.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "adapters/bags/bag_check.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
 

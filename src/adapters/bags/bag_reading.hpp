@@ -33,11 +33,6 @@ std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag);
 /// InputError if there are no images, no calibration, or several topics to choose from
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted);
 
-/// Why rosbag must not open this bag: rosbag follows damaged lengths and places out of the file, and reads
-/// past its buffers. Empty if rosbag may open it, or reports the fault itself (no file, no bag, no index).
-/// Compressed chunks have a checksum; only their sizes are checked.
-std::string whyDamaged(const std::string& file);
-
 /// Transforms that hold for the whole bag, such as the camera's mounting.
 class RecordedTransforms {
  public:

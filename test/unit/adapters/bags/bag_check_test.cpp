@@ -1,3 +1,5 @@
+#include "adapters/bags/bag_check.hpp"
+
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
