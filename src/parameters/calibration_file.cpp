@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "parameters/yaml_nodes.hpp"
 #include "window_ingress/geometry/lens_model.hpp"
-#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
 namespace {

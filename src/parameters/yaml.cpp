@@ -7,8 +7,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "parameters/yaml_nodes.hpp"
 #include "window_ingress/parameters/unknown_key.hpp"
-#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
 namespace {

@@ -3,11 +3,11 @@
 #include <optional>
 #include <set>
 
+#include "parameters/yaml_nodes.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
 #include "window_ingress/parameters/unknown_key.hpp"
-#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::simulation {
 

@@ -1,4 +1,4 @@
-/// Shared by the readers of yaml files. Private to them, because it exposes yaml-cpp.
+/// Shared by the readers of yaml files. Not installed, because it exposes yaml-cpp.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
