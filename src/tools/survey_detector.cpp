@@ -16,14 +16,13 @@
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace window_ingress;
 using Clock = std::chrono::steady_clock;
-
-constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
   std::vector<std::string> scenarios, folders;
@@ -76,7 +75,7 @@ evaluation::ViewRange rangeOf(const Options& o, int i) {
   evaluation::ViewRange range;
   range.nearest_m = fixed.empty() ? range_m[0] : fixed[i % fixed.size()];
   range.farthest_m = fixed.empty() ? range_m[1] : range.nearest_m;
-  range.off_axis_rad = o.off_axis_deg * kRadPerDegree;
+  range.off_axis_rad = o.off_axis_deg * geometry::kRadPerDegree;
   range.still = o.still;
   return range;
 }
@@ -90,7 +89,10 @@ void check(const Options& o) {
 /// Searches the window in one image after the other.
 class Survey {
  public:
-  explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)), table_(binsOf(o)) {
+  explicit Survey(const Options& o)
+      : options_(o),
+        detector_(configuration::readOverlay(o.params).window_detector.detector),
+        table_(binsOf(o)) {
     tools::makeFolder(o.output);
     if (!o.overlay.empty()) tools::makeFolder(o.overlay);
     frames_.open(fs::path(o.output) / "frames.csv");
@@ -139,10 +141,6 @@ class Survey {
     const fs::path file = fs::path(options_.overlay) / (sample.scenario + "_" + std::to_string(sample.seed) +
                                                         "_" + evaluation::toString(result.verdict) + ".png");
     evaluation::writeImage(file, canvas);
-  }
-
-  static detection::DetectorParams paramsOf(const Options& o) {
-    return configuration::readOverlay(o.params).window_detector.detector;
   }
 
   Options options_;

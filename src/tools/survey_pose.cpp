@@ -15,6 +15,7 @@
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -22,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace window_ingress;
-
-constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
   std::vector<std::string> folders;
@@ -82,7 +81,7 @@ int surveyNoise(const Options& o) {
     for (const double distance : distances)
       for (const double yaw : yaws) {
         results.push_back(
-            evaluation::surveyCell(setup, {distance, yaw * kRadPerDegree, noise}, o.draws, seed++));
+            evaluation::surveyCell(setup, {distance, yaw * geometry::kRadPerDegree, noise}, o.draws, seed++));
         if (results.back().draws == 0)
           throw InputError(formatted("--at: the window does not fit into the image from %g m", distance));
         table << evaluation::poseSurveyRow(results.back()) << "\n";
@@ -127,7 +126,7 @@ class Chain {
         sample.truth.inner, sample.camera,
         {estimator_.params().opening_width_m, estimator_.params().opening_height_m});
     if (!truth) return std::nullopt;
-    const double sigma = options_.attitude_deg * kRadPerDegree;
+    const double sigma = options_.attitude_deg * geometry::kRadPerDegree;
     std::normal_distribution<double> noise(0.0, sigma);
     const Eigen::Vector3d off(noise(random_), noise(random_), noise(random_));
     return estimation::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma};

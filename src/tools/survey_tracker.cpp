@@ -52,10 +52,6 @@ tools::OptionList describe(Options& o) {
   return add;
 }
 
-detection::DetectorParams paramsOf(const Options& o) {
-  return configuration::readOverlay(o.params).window_detector.detector;
-}
-
 /// An attitude estimate with a constant error and noise.
 class Attitude {
  public:
@@ -86,7 +82,7 @@ class Flight {
         sensor_(scene_, scenario_.camera, seed),
         path_(o.range, seed),
         attitude_(seed),
-        tracker_(paramsOf(o)) {
+        tracker_(configuration::readOverlay(o.params).window_detector.detector) {
     if (o.no_reference) return;
     geometry::Quadrilateral corners;
     const cv::Mat image = simulation::referenceImage(scenario_, &corners);

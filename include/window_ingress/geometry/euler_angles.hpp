@@ -6,7 +6,7 @@
 
 namespace window_ingress::geometry {
 
-inline constexpr double kDegreesPerRad = 180.0 / M_PI;
+inline constexpr double kDegreesPerRad = 180.0 / M_PI, kRadPerDegree = M_PI / 180.0;
 
 /// Euler angles [rad]: roll about x, pitch about y, yaw about z of a forward-left-up frame. The paper calls
 /// them theta, phi and psi.
