@@ -72,7 +72,7 @@ void TargetEstimator::reset() {
   checks_->frames.clear();
   clocks_.clear();
   facade_.reset();
-  heeded_ = 0;
+  handled_given_up_ = 0;
 }
 
 void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
@@ -111,12 +111,13 @@ void TargetEstimator::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_
   attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
 }
 
-void TargetEstimator::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                          const std::optional<Eigen::Isometry3d>& T_base_camera) {
-  see({window.stamp_sec, camera, T_base_camera, window, {}});
+void TargetEstimator::addDetection(const detection::WindowObservation& window,
+                                   const geometry::PinholeCamera& camera,
+                                   const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  addDetection({window.stamp_sec, camera, T_base_camera, window, {}});
 }
 
-void TargetEstimator::see(ObservedImage image) {
+void TargetEstimator::addDetection(ObservedImage image) {
   flush();
   pending_ = std::move(image);
   if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= pending_->stamp_sec) flush();
@@ -166,11 +167,11 @@ void TargetEstimator::rememberWindows(const ObservedImage& image) {
   if (!T_odom_camera) return;
   const bool is_used = image.window && last_.why_not.empty();
   const auto filtered = is_used ? filter_.state(image.stamp_sec) : std::nullopt;
-  facade_.see({image.stamp_sec,
-               {image.camera, *T_odom_camera},
-               image.windows,
-               image.window ? image.window->target_id : 0},
-              filtered, filtered ? filtered->size.size : lookedFor());
+  facade_.addView({image.stamp_sec,
+                   {image.camera, *T_odom_camera},
+                   image.windows,
+                   image.window ? image.window->target_id : 0},
+                  filtered, filtered ? filtered->size.size : lookedFor());
   if (filtered) facade_.judge(openness());
 }
 
@@ -207,13 +208,13 @@ Reply TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
   return reply;
 }
 
-void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up,
-                           bool next_one) {
+void TargetEstimator::addNavigatorState(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up,
+                                        bool next_one) {
   facade_.noteFlownAt(flown_at);
-  heeded_ = std::min(heeded_, given_up.size());  // another mission began
-  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
+  handled_given_up_ = std::min(handled_given_up_, given_up.size());  // another mission began
+  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(handled_given_up_),
                                         given_up.end());
-  heeded_ = given_up.size();
+  handled_given_up_ = given_up.size();
   if (news.empty()) return;
   const std::uint32_t before = facade_.targetId();
   facade_.giveUp(news, next_one);

@@ -187,8 +187,8 @@ void FacadeMap::forgetNeighbours() {
     pair = is_known(pair->first) && is_known(pair->second) ? std::next(pair) : apart_.erase(pair);
 }
 
-void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
-                    const geometry::OpeningSize& looked_for, std::uint32_t kept) {
+void FacadeMap::addView(const FacadeView& view, const std::optional<Wall>& wall,
+                        const geometry::OpeningSize& looked_for, std::uint32_t kept) {
   const auto is_too_small = [&](const WindowPlace& place) {
     return place.on_wall && (place.size.width_m < kMinSize * looked_for.width_m ||
                              place.size.height_m < kMinSize * looked_for.height_m);

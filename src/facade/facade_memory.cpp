@@ -71,12 +71,12 @@ void FacadeMemory::setNextBest() {
   is_next_ = next != nullptr;
 }
 
-void FacadeMemory::see(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
-                       const geometry::OpeningSize& looked_for) {
+void FacadeMemory::addView(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
+                           const geometry::OpeningSize& looked_for) {
   if (!params_.enabled) return;
   looked_for_ = looked_for;
   if (filtered && filtered->sign_trusted) wall_ = wallFrom(*filtered);
-  map_.see(view, wall_, looked_for, target_id_);
+  map_.addView(view, wall_, looked_for, target_id_);
   if (target() == nullptr) target_id_ = 0;
   if (filtered) adopt(*filtered, view.track_id);
   yieldToBetterLook();

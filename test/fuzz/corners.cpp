@@ -103,8 +103,8 @@ void corners(const std::uint8_t* data, std::size_t size) {
                            {bytes.number(-1.0, 1.0), bytes.number(-1.0, 1.0), 1.5});
     if (!geometry::isValidPose(T_odom_base)) continue;
     tracker.addOdometry(stamp_sec, T_odom_base, Eigen::Vector3d(bytes.number(-1.0, 1.0), 0.0, 0.0));
-    tracker.see(*window.value, camera,
-                geometry::makePose(geometry::R_optical_flu().transpose(), {0.1, 0.0, 0.0}));
+    tracker.addDetection(*window.value, camera,
+                         geometry::makePose(geometry::R_optical_flu().transpose(), {0.1, 0.0, 0.0}));
     tracker.flush();
     check(tracker.lastUpdate().pose);
     check(tracker.filtered(stamp_sec));

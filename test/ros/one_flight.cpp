@@ -193,7 +193,7 @@ class Loop {
     const double stamp_sec = message.header.stamp.toSec();
     const auto window = perception_.detect(image, stamp_sec, facts_.T_base_camera);
     words_.seen(message.header, image, perception_.perception());
-    perception_.see(stamp_sec, facts_.T_base_camera, window);
+    perception_.addDetection(stamp_sec, facts_.T_base_camera, window);
     waiting_ = message.header;
     tellIfLocated();
   }

@@ -75,9 +75,9 @@ class TargetEstimator {
                    const Eigen::Vector3d& turn_odom_radps = Eigen::Vector3d::Zero());
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
   /// \param T_base_camera mounting of the camera; without it there is a pose, but the filter is not updated
-  void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-           const std::optional<Eigen::Isometry3d>& T_base_camera);
-  void see(ObservedImage image);  ///< the same with all windows of the image
+  void addDetection(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                    const std::optional<Eigen::Isometry3d>& T_base_camera);
+  void addDetection(ObservedImage image);  ///< the same with all windows of the image
   /// Processes an observation that still waits for odometry with what there is.
   void flush();
   void reset();
@@ -86,7 +86,7 @@ class TargetEstimator {
   Reply selectWindowNear(const Eigen::Vector3d& point_odom_m);
   /// State of the navigator: the window it flies at (0: none), those it gave up, and whether it wants another
   /// one in place of the last of these.
-  void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
+  void addNavigatorState(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
   const facade::FacadeMemory& facade() const { return facade_; }
   /// Expected place of the target in an image taken at that time, if known and in view (distorted pixels).
   std::optional<geometry::Quadrilateral> expected(double stamp_sec, const geometry::PinholeCamera& camera,
@@ -141,7 +141,7 @@ class TargetEstimator {
   ClockCheck clocks_;
   openness::OpennessJudge judge_;
   facade::FacadeMemory facade_;
-  std::size_t heeded_ = 0;  ///< number of abandoned windows already processed
+  std::size_t handled_given_up_ = 0;  ///< number of abandoned windows already processed
   bool size_is_known_;
   double attitude_sigma_rad_;
   std::uint32_t target_id_ = 0;

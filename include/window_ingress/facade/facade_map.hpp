@@ -53,8 +53,8 @@ class FacadeMap {
   /// \param looked_for assumed size of windows whose distance is otherwise unknown; less than half as wide or
   /// high is not a window
   /// \param kept number of a window that is not forgotten, and that keeps this number in a merge
-  void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
-           std::uint32_t kept = 0);
+  void addView(const FacadeView& view, const std::optional<Wall>& wall,
+               const geometry::OpeningSize& looked_for, std::uint32_t kept = 0);
   /// Corrects a place by one that is better known than from a single sight.
   void correct(std::uint32_t id, const WindowPlace& place);
 

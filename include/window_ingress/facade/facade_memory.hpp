@@ -29,8 +29,8 @@ class FacadeMemory {
   void forgetPlaces();
   /// \param filtered the filter's state of this image's target, if the image was used
   /// \param looked_for size of the target, known or believed
-  void see(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
-           const geometry::OpeningSize& looked_for);
+  void addView(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
+               const geometry::OpeningSize& looked_for);
 
   /// Why a window seen is not the target; empty if it may be. Partial windows are not judged.
   std::string whyNotTarget(const detection::WindowObservation& window, const Viewpoint& from,

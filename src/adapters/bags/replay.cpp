@@ -200,7 +200,7 @@ void Replay::count(const ReplayedFrame& frame) {
 
 void Replay::locate(ReplayedFrame& frame, const Converted<Eigen::Isometry3d>& mounted) {
   const double stamp_sec = frame.stamp.toSec();
-  perception_.see(stamp_sec, mounted.value, frame.row.window);
+  perception_.addDetection(stamp_sec, mounted.value, frame.row.window);
   if (!frame.camera) return;
   perception_.estimator().flush();
   frame.why_not_filtered = "no window";

@@ -211,7 +211,8 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
   if (tf_attitude_)
     if (const auto R_odom_base = tf_attitude_->at(*stamp_sec))
       estimator_.addAttitude(*stamp_sec, *R_odom_base);
-  estimator_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
+  estimator_.addDetection(
+      {*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
   estimator_.flush();
   out.target = targetMsg(
       estimator_.facade().target(),

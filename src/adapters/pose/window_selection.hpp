@@ -96,7 +96,7 @@ class WindowSelection {
   }
 
   void receiveState(const window_ingress::IngressState& message) {
-    estimator_.heed(message.window_id, message.given_up, message.next_window != 0);
+    estimator_.addNavigatorState(message.window_id, message.given_up, message.next_window != 0);
   }
 
   Health health() const {

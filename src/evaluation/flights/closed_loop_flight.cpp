@@ -143,7 +143,7 @@ void Flight::look(const simulation::CameraFrame& frame) {
   if (!frame.image.empty())
     for (auto* observer : observers_) observer->onImage(frame, perception_.perception().trace(), window);
   timing_.lap(Stage::kOther);
-  perception_.see(frame.stamp_sec, world_.T_base_camera(), window);
+  perception_.addDetection(frame.stamp_sec, world_.T_base_camera(), window);
   timing_.lap(Stage::kPose);
 }
 
@@ -165,7 +165,8 @@ void Flight::step() {
   const bool may_start = input_.image_stamp_sec && was_chosen_;
   if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
-  estimator().heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
+  estimator().addNavigatorState(output_.report.window_id, output_.report.given_up,
+                                output_.report.next_window);
   if (!output_.enabled) return;
   world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
 }

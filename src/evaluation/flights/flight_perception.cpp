@@ -38,10 +38,10 @@ const std::optional<detection::WindowObservation>& FlightPerception::detect(
   return perception_.update(seen);
 }
 
-void FlightPerception::see(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
-                           const std::optional<detection::WindowObservation>& window) {
+void FlightPerception::addDetection(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
+                                    const std::optional<detection::WindowObservation>& window) {
   if (!camera_) return last_seen_sec_.reset();
-  estimator_.see({stamp_sec, *camera_, T_base_camera, window, perception_.windows()});
+  estimator_.addDetection({stamp_sec, *camera_, T_base_camera, window, perception_.windows()});
   last_seen_sec_ = stamp_sec;
 }
 

@@ -34,8 +34,8 @@ class FlightPerception {
   const std::optional<detection::WindowObservation>& detect(
       const cv::Mat& image, double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera);
   /// Passes an observation, from the detector or elsewhere, on to the target; only with a calibration.
-  void see(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
-           const std::optional<detection::WindowObservation>& window);
+  void addDetection(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
+                    const std::optional<detection::WindowObservation>& window);
   /// Forgets all but parameters and reference.
   void forget();
 

@@ -69,7 +69,7 @@ std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::Target
     for (const auto& odometry : approach.odometry())
       estimator.addOdometry(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
     if (!approach.isInView()) continue;
-    estimator.see(approach.window(), approach.camera(), approach.T_base_camera());
+    estimator.addDetection(approach.window(), approach.camera(), approach.T_base_camera());
     const auto found = estimator.filtered(approach.timeSec());
     if (!found) continue;
     FilterSample sample = compare(*found, approach, opening);

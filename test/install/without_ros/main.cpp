@@ -31,7 +31,7 @@ class Pilot {
     frame.stamp_sec = stamp_sec;
     frame.camera = &camera_;
     const auto window = perception_.update(frame);
-    target_.see({stamp_sec, camera_, T_base_camera_, window, perception_.windows()});
+    target_.addDetection({stamp_sec, camera_, T_base_camera_, window, perception_.windows()});
     input_.image_stamp_sec = stamp_sec;
   }
 
@@ -40,7 +40,7 @@ class Pilot {
   navigation::NavigatorOutput step(double now_sec) {
     input_.target = target_.target(now_sec);
     const auto output = navigator_.step(input_, now_sec);
-    target_.heed(output.report.window_id, output.report.given_up, output.report.next_window);
+    target_.addNavigatorState(output.report.window_id, output.report.given_up, output.report.next_window);
     return output;
   }
 

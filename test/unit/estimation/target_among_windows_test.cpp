@@ -28,7 +28,7 @@ struct Watch {
       for (auto& covariance : window.corner_covariance) covariance = 0.01 * Eigen::Matrix2d::Identity();
       for (auto& edge : window.edges) edge = {true, 0.1, 0.001};
       window.score = 1.0;
-      estimator.see({now_sec, view.camera, T_base_camera, window, look.windows});
+      estimator.addDetection({now_sec, view.camera, T_base_camera, window, look.windows});
       estimator.flush();
     }
   }
@@ -66,9 +66,9 @@ TEST(TargetAmongWindows, TheOneInUseIsGivenUpAndTheNextTakenWhereThatIsAllowed) 
     Watch watch;
     watch.look(60, 2);
     const std::uint32_t id = watch.estimator.target(watch.now_sec)->window_id;
-    watch.estimator.heed(id, {}, next_one);
+    watch.estimator.addNavigatorState(id, {}, next_one);
     EXPECT_EQ(watch.estimator.facade().targetId(), id);
-    for (int n = 0; n < 3; ++n) watch.estimator.heed(0, {id}, next_one);  // repeated messages
+    for (int n = 0; n < 3; ++n) watch.estimator.addNavigatorState(0, {id}, next_one);  // repeated messages
     EXPECT_EQ(watch.estimator.facade().targetId() != 0, next_one);
     EXPECT_NE(watch.estimator.facade().targetId(), id);
     EXPECT_EQ(watch.estimator.target(watch.now_sec).has_value(), !next_one);

@@ -145,7 +145,7 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
       if (odd(0.05)) mischief.spoil(window);
       geometry::PinholeCamera camera = kCamera;
       if (odd(0.02)) camera.fx = mischief.odd();
-      estimator.see(window, camera, odd(0.02) ? std::nullopt : std::make_optional(mounting));
+      estimator.addDetection(window, camera, odd(0.02) ? std::nullopt : std::make_optional(mounting));
       expectSound(estimator, now, seed);
       if (::testing::Test::HasFailure()) return;
     }

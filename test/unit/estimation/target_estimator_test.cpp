@@ -41,7 +41,7 @@ TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
     const double now = i / 30.0, exposure = now - 0.05;
     estimator.addOdometry(now, vehicleAt(now));  // 1 m/s sideways
     estimator.addAttitude(now, Eigen::Quaterniond(geometry::yawRotation(0.1)));
-    if (exposure >= 0.0) estimator.see(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
+    if (exposure >= 0.0) estimator.addDetection(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
   }
   const auto target = estimator.target(1.0);
   ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
@@ -70,7 +70,7 @@ TEST(TargetEstimator, WhereTheMountingIsSaidToBeSureTheWayFlownDoesNotJudgeTheSi
     for (int i = 0; i <= 90; ++i) {
       const double now = i / 30.0, y = 0.6 * now;
       estimator.addOdometry(now, vehicleAt(1.5 * y));
-      estimator.see(sighting(vehicleAt(y), now), kCamera, kMounting);
+      estimator.addDetection(sighting(vehicleAt(y), now), kCamera, kMounting);
     }
     EXPECT_EQ(estimator.frames().what.find("opening looks like") == std::string::npos, is_sure)
         << estimator.frames().what;
@@ -80,7 +80,7 @@ TEST(TargetEstimator, WhereTheMountingIsSaidToBeSureTheWayFlownDoesNotJudgeTheSi
 TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
   auto estimator = defaultEstimator();
   estimator.addOdometry(0.0, vehicleAt(0.0));
-  estimator.see(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
+  estimator.addDetection(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
   EXPECT_FALSE(estimator.target(0.03));
   estimator.addOdometry(0.06, vehicleAt(0.06));
   EXPECT_TRUE(estimator.target(0.06));
@@ -88,9 +88,9 @@ TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
 
 TEST(TargetEstimator, WithoutOdometryNearTheExposureThereIsNoTarget) {
   auto estimator = defaultEstimator();
-  estimator.see(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
+  estimator.addDetection(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
   estimator.addOdometry(0.0, vehicleAt(0.0));
-  estimator.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+  estimator.addDetection(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
   EXPECT_FALSE(estimator.target(1.03));
   EXPECT_EQ(estimator.lastUpdate().why_not, "no odometry near the exposure");
 }
@@ -99,7 +99,7 @@ TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
   auto estimator = defaultEstimator();
   for (int i = 0; i < 10; ++i) {
     estimator.addOdometry(0.03 * i, vehicleAt(0.0));
-    estimator.see(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
   }
   ASSERT_TRUE(estimator.target(0.3));
   estimator.addOdometry(0.3, vehicleAt(5.0));
@@ -113,7 +113,7 @@ TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEs
   for (int i = 0; i <= 90; ++i) {
     const double now = i / 30.0, y = 0.6 * now;
     estimator.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
-    estimator.see(sighting(vehicleAt(y), now), kCamera, mounting_told);
+    estimator.addDetection(sighting(vehicleAt(y), now), kCamera, mounting_told);
   }
   return estimator;
 }
@@ -160,7 +160,7 @@ TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
   auto next = sighting(vehicleAt(1.8), 3.03);
   next.target_id = 7;
   estimator.addOdometry(3.03, vehicleAt(1.8));
-  estimator.see(next, kCamera, kMounting);
+  estimator.addDetection(next, kCamera, kMounting);
   target = estimator.target(3.03);
   ASSERT_TRUE(target);
   EXPECT_FALSE(target->other_window);
@@ -175,7 +175,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
   auto estimator = TargetEstimator(unknownSize(), estimation::FilterParams(), TargetEstimatorParams());
   for (int i = 0; i < 30; ++i) {
     estimator.addOdometry(i / 30.0, vehicleAt(0.0));
-    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
   ASSERT_TRUE(estimator.target(1.0));
   EXPECT_EQ(estimator.target(1.0)->fit, estimation::Fit::kUnknown);
@@ -193,7 +193,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileManyImagesContradictTheWindow) {
     for (int i = 0; i <= 60; ++i) {
       const double now = i / 30.0;
       estimator.addOdometry(now, vehicleAt(0.0), Eigen::Vector3d(0, 0, 0));
-      estimator.see(sighting(vehicleAt(i % 2 == 0 ? 0.0 : aside_m), now), kCamera, kMounting);
+      estimator.addDetection(sighting(vehicleAt(i % 2 == 0 ? 0.0 : aside_m), now), kCamera, kMounting);
     }
     const auto target = estimator.target(2.0);
     ASSERT_TRUE(target) << estimator.lastUpdate().why_not;
@@ -237,7 +237,7 @@ TEST(TargetEstimator, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) 
   EXPECT_EQ(estimator.frames(), frames);
   for (int i = 0; i < 3; ++i) {
     estimator.addOdometry(3.1 + i / 30.0, vehicleAt(1.8));
-    if (i > 0) estimator.see(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
+    if (i > 0) estimator.addDetection(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
   }
   ASSERT_TRUE(estimator.target(3.2)) << estimator.lastUpdate().why_not;
   EXPECT_NEAR(estimator.target(3.2)->opening.width_m, 1.2, 0.1);
@@ -247,7 +247,7 @@ TargetEstimator hovering(double until_sec) {
   auto estimator = defaultEstimator();
   for (int i = 0; i <= 30.0 * until_sec; ++i) {
     estimator.addOdometry(i / 30.0, vehicleAt(0.0));
-    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
   return estimator;
 }
@@ -259,7 +259,7 @@ TEST(TargetEstimator, AnOdometrySampleThatComesLateChangesNothing) {
     const int updates = estimator.target(1.0)->updates;
     estimator.addOdometry(stamp, vehicleAt(0.0));
     estimator.addOdometry(1.03, vehicleAt(0.0));
-    estimator.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
     ASSERT_TRUE(estimator.target(1.03)) << stamp;
     EXPECT_EQ(estimator.target(1.03)->updates, updates + 1) << stamp;
   }
@@ -291,7 +291,7 @@ TEST(TargetEstimator, WithoutRecentAttitudeThatOfTheOdometryCounts) {
   with_imu.addAttitude(0.0, Eigen::Quaterniond(pitched(0.0).linear()));
   for (auto* estimator : {&with_imu, &without}) {
     estimator->addOdometry(1.0, pitched(0.25));
-    estimator->see(sighting(pitched(0.25), 1.0), kCamera, kMounting);
+    estimator->addDetection(sighting(pitched(0.25), 1.0), kCamera, kMounting);
     ASSERT_TRUE(estimator->lastUpdate().pose.estimate) << estimator->lastUpdate().pose.detail;
   }
   EXPECT_NEAR(without.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.002);
@@ -304,7 +304,7 @@ TEST(TargetEstimator, AnAttitudeInOtherAxesThanTheOdometryIsNamedAndNotUsed) {
   for (int i = 0; i < 60; ++i) {
     estimator.addOdometry(i / 30.0, vehicleAt(0.0));
     estimator.addAttitude(i / 30.0, down);
-    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
   ASSERT_TRUE(estimator.target(2.0)) << estimator.lastUpdate().why_not;
   ASSERT_TRUE(estimator.lastUpdate().pose.estimate);
@@ -314,7 +314,7 @@ TEST(TargetEstimator, AnAttitudeInOtherAxesThanTheOdometryIsNamedAndNotUsed) {
   for (int i = 60; i < 120; ++i) {
     estimator.addOdometry(i / 30.0, vehicleAt(0.0));
     estimator.addAttitude(i / 30.0, Eigen::Quaterniond(vehicleAt(0.0).linear()));
-    estimator.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+    estimator.addDetection(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
   }
   EXPECT_NE(estimator.frames().state, estimation::FramesVerdict::kWrong) << estimator.frames().what;
 }
@@ -328,7 +328,7 @@ TEST(TargetEstimator, AnObservationWithoutBordersThatGivesNoPoseIsNotUsed) {
     skewed.corner_covariance[i] = 50.0 * Eigen::Matrix2d::Identity();
     skewed.corners[i].x() += i < 2 ? 6.0 : -6.0;
   }
-  estimator.see(skewed, kCamera, kMounting);
+  estimator.addDetection(skewed, kCamera, kMounting);
   EXPECT_FALSE(estimator.lastUpdate().pose.estimate);
   EXPECT_FALSE(estimator.lastUpdate().why_not.empty());
   EXPECT_EQ(estimator.lastUpdate().why_not, estimator.lastUpdate().pose.detail);
@@ -340,11 +340,11 @@ TEST(TargetEstimator, AnotherTargetHasNoMeasuredSizeYet) {
   estimator.addOdometry(3.2, vehicleAt(1.8));
   auto other = sighting(vehicleAt(1.8), 3.2);
   other.target_id = 7;
-  estimator.see(other, kCamera, kMounting);
+  estimator.addDetection(other, kCamera, kMounting);
   estimator.addOdometry(3.4, vehicleAt(2.0));
   other = sighting(vehicleAt(2.0), 3.4);
   other.target_id = 8;
-  estimator.see(other, kCamera, kMounting);
+  estimator.addDetection(other, kCamera, kMounting);
   EXPECT_FALSE(estimator.measuredSize());
 }
 
@@ -357,7 +357,7 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
   estimator.addAttitude(0.0, Eigen::Quaterniond(nan, 0, 0, 1));
   auto window = sighting(vehicleAt(0.0), 0.0);
   window.corners[2].x() = nan;
-  estimator.see(window, kCamera, kMounting);
+  estimator.addDetection(window, kCamera, kMounting);
   EXPECT_FALSE(estimator.lastUpdate().why_not.empty());
   EXPECT_FALSE(estimator.target(0.0));
   TargetEstimatorParams params;

@@ -13,7 +13,8 @@ void walkAlong(FacadeMap& map, const test::WindowRow& row, const std::optional<W
                unsigned seed) {
   std::mt19937 random(seed);
   for (int n = 0; n < 60; ++n)
-    map.see(row.look(begin_sec + 0.1 * n, row.from({-5.0, 1.0 - 0.15 * n, 1.5}), -1, random), wall, row.size);
+    map.addView(row.look(begin_sec + 0.1 * n, row.from({-5.0, 1.0 - 0.15 * n, 1.5}), -1, random), wall,
+                row.size);
 }
 
 int confirmed(const FacadeMap& map) {
@@ -48,7 +49,7 @@ TEST(FacadeMap, FindsAWindowAgainWhereItWasAfterALossAlthoughOdometryDrifted) {
   for (int n = 0; n < 4; ++n) {  // ten seconds later and 6 cm aside
     auto look = row.look(26.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
     look.from.T_odom_camera.translation() += Eigen::Vector3d(0.0, 0.06, 0.0);
-    map.see(look, kWall, row.size);
+    map.addView(look, kWall, row.size);
   }
   EXPECT_EQ(map.windows().size(), before.size());
 }
@@ -62,7 +63,7 @@ TEST(FacadeMap, FindsAWindowAgainWhereNoOtherOneCanBeHoweverFarOdometrySlid) {
   for (int n = 0; n < 10; ++n) {  // at once, by 0.35 m
     auto look = row.look(16.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
     look.from.T_odom_camera.translation() += Eigen::Vector3d(0.0, 0.35, 0.0);
-    map.see(look, kWall, row.size);
+    map.addView(look, kWall, row.size);
   }
   EXPECT_EQ(map.windows().size(), before.size());
 }
@@ -72,10 +73,10 @@ TEST(FacadeMap, ForgetsWhatWasSeenButOnce) {
   const test::WindowRow row;
   FacadeMap map{FacadeParams()};
   auto look = row.look(10.0, row.from({-5.0, 0.0, 1.5}), -1, random);
-  map.see(look, kWall, row.size);
+  map.addView(look, kWall, row.size);
   EXPECT_FALSE(map.windows().empty());
   EXPECT_EQ(confirmed(map), 0);
-  map.see({13.0, look.from, {}, 0}, kWall, row.size);
+  map.addView({13.0, look.from, {}, 0}, kWall, row.size);
   EXPECT_TRUE(map.windows().empty());
 }
 
@@ -84,7 +85,7 @@ TEST(FacadeMap, NumbersNothingThatWasSeenButOnce) {
   const test::WindowRow row;
   FacadeMap map{FacadeParams()};
   for (double stamp_sec = 10.0; stamp_sec < 40.0; stamp_sec += 3.0)
-    map.see(row.look(stamp_sec, row.from({-5.0, 0.0, 1.5}), -1, random), kWall, row.size);
+    map.addView(row.look(stamp_sec, row.from({-5.0, 0.0, 1.5}), -1, random), kWall, row.size);
   walkAlong(map, row, kWall, 50.0, 1);
   std::uint32_t highest = 0;
   for (const KnownWindow& window : map.windows()) highest = std::max(highest, window.id);
@@ -98,9 +99,9 @@ TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySid
   FacadeMap map{FacadeParams()};
   // At first the window is placed as far away as a window of three times its size; later the wall is known.
   for (int n = 0; n < 5; ++n)
-    map.see(row.look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt, {3.6, 3.0});
+    map.addView(row.look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt, {3.6, 3.0});
   for (int n = 0; n < 40; ++n)
-    map.see(row.look(11.0 + 0.1 * n, row.from({-5.0, 1.0 - 0.05 * n, 1.5}), -1, random), kWall, row.size);
+    map.addView(row.look(11.0 + 0.1 * n, row.from({-5.0, 1.0 - 0.05 * n, 1.5}), -1, random), kWall, row.size);
   ASSERT_GE(map.windows().size(), 1u);
   EXPECT_NE(map.at({row.centre(0), 1e-4 * Eigen::Matrix3d::Identity(), 0.0, row.size, true}, 15.0), nullptr);
   FacadeMap near{FacadeParams()};
@@ -120,7 +121,7 @@ TEST(FacadeMap, WhatWasSeenBesideAWindowStaysApartFromTheOneThatItBecomes) {
     for (int n = 0; n < 4; ++n) {
       FacadeView seen{begin_sec + 0.1 * n, view, {}, 0};
       for (const int i : shown) seen.windows.push_back(*row.seen(i, view, random));
-      map.see(seen, kWall, row.size);
+      map.addView(seen, kWall, row.size);
     }
   };
   const auto placed = [&](int i) {
@@ -147,7 +148,7 @@ TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
   FacadeMap map{FacadeParams()};
   for (int n = 0; n < 30; ++n) {
     const auto view = row.from({-5.0, 0.5 - 0.03 * n, 1.5});
-    map.see((n % 3 == 0 ? panes : row).look(10.0 + 0.1 * n, view, -1, random), kWall, row.size);
+    map.addView((n % 3 == 0 ? panes : row).look(10.0 + 0.1 * n, view, -1, random), kWall, row.size);
   }
   ASSERT_EQ(map.windows().size(), 2u);
   for (const KnownWindow& window : map.windows())
@@ -162,7 +163,7 @@ TEST(FacadeMap, BeforeThereIsAWallNumbersOnlyWhatMayBeTheTarget) {
     for (int n = 0; n < 20; ++n) {
       auto look = row.look(begin_sec + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
       for (auto& seen : look.windows) seen.may_be_target = &seen == &look.windows.front();
-      map.see(look, wall, row.size);
+      map.addView(look, wall, row.size);
     }
   };
   see(10.0, std::nullopt);
@@ -181,7 +182,7 @@ TEST(FacadeMap, WhatIsLessThanHalfAsWideOrHighAsTheOneLookedForIsNoWindow) {
     strips.size = size;
     FacadeMap map{FacadeParams()};
     for (int n = 0; n < 20; ++n)
-      map.see(strips.look(10.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random), kWall, row.size);
+      map.addView(strips.look(10.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random), kWall, row.size);
     EXPECT_TRUE(map.windows().empty());
   }
 }
@@ -195,7 +196,7 @@ TEST(FacadeMap, ForgetsWhatWasGuessedAndIsNotThereButNotOutOfViewNorTheTarget) {
                         double begin_sec, double heading_rad, std::uint32_t kept) {
     const auto view = row.from({-7.0, -1.9, 1.5}, heading_rad);
     for (int n = 0; n < 120; ++n)
-      map.see(what.look(begin_sec + 0.1 * n, view, -1, random), wall, row.size, kept);
+      map.addView(what.look(begin_sec + 0.1 * n, view, -1, random), wall, row.size, kept);
   };
   FacadeMap before{FacadeParams()};
   look(before, outer, std::nullopt, 10.0, 0.0, 0);
@@ -220,8 +221,8 @@ TEST(FacadeMap, AWindowCutOffByTheImageIsTheOneThatWasSeenByItsFramesOuterBorder
   cut.size = {0.92, 0.95}, outer.size = {1.34, 1.06};
   FacadeMap map{FacadeParams()};
   for (int n = 0; n < 30; ++n)
-    map.see((n % 3 == 0 ? outer : cut).look(10.0 + 0.1 * n, cut.from({-5.0, 0.0, 1.5}), -1, random), kWall,
-            {1.2, 1.0});
+    map.addView((n % 3 == 0 ? outer : cut).look(10.0 + 0.1 * n, cut.from({-5.0, 0.0, 1.5}), -1, random),
+                kWall, {1.2, 1.0});
   EXPECT_EQ(map.windows().size(), 1u);
 }
 
@@ -232,8 +233,8 @@ TEST(FacadeMap, DoesNotTakeALargeLoopForTheWindowBehindIt) {
   loop.size = {4.0, 3.3};  // as far away as 1.5 m if it had the expected size
   FacadeMap map{FacadeParams()};
   for (int n = 0; n < 20; ++n)
-    map.see((n < 10 ? loop : row).look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt,
-            row.size);
+    map.addView((n < 10 ? loop : row).look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random),
+                std::nullopt, row.size);
   ASSERT_EQ(confirmed(map), 2);
   EXPECT_NEAR(map.windows().back().place.position_m.x(), 0.0, 0.3);
 }
@@ -252,7 +253,7 @@ TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
                         Eigen::Vector2d(x, y + 30)};
       look.windows.push_back(window);
     }
-    map.see(look, kWall, {1.2, 1.0});
+    map.addView(look, kWall, {1.2, 1.0});
   }
   EXPECT_LE(map.windows().size(), 64u);
   for (const KnownWindow& window : map.windows()) EXPECT_TRUE(window.place.position_m.allFinite());
@@ -268,7 +269,7 @@ TEST(FacadeMap, AFullMapForgetsWhatItHasNotSeenForLongestButNotTheTarget) {
     for (int n = 0; n < 5; ++n) {
       FacadeView view = row.look(10.0 + part + 0.1 * n, at_first, -1, random);
       view.from = test::WindowRow::from({-5.0, 30.0 * part, 1.5});
-      map.see(view, kWall, row.size, kept);
+      map.addView(view, kWall, row.size, kept);
       if (part == 0 && n == 4) kept = map.windows().front().id;
     }
   EXPECT_LE(map.windows().size(), 64u);

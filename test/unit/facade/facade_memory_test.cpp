@@ -23,7 +23,7 @@ struct Watch {
   void look(int images, int target) {
     for (int n = 0; n < images; ++n, now_sec += 0.1) {
       const auto filtered = target < 0 ? std::nullopt : std::optional(row.filtered(target, now_sec));
-      memory.see(row.look(now_sec, view, target, random), filtered, row.size);
+      memory.addView(row.look(now_sec, view, target, random), filtered, row.size);
     }
   }
   const KnownWindow& at(int i) const {
@@ -97,7 +97,8 @@ TEST(FacadeMemory, AChosenWindowStaysTheTargetWhereItTurnsOutToBeOneWithAnOlderO
     for (int n = 0; n < 4; ++n, watch.now_sec += 0.1) {
       auto window = *watch.row.seen(seen, watch.view, watch.random);
       window.is_target = is_target;
-      watch.memory.see({watch.now_sec, watch.view, {window}, is_target ? 7u : 0u}, filtered, watch.row.size);
+      watch.memory.addView({watch.now_sec, watch.view, {window}, is_target ? 7u : 0u}, filtered,
+                           watch.row.size);
     }
   };
   look(1, false, std::nullopt);
@@ -178,7 +179,7 @@ TEST(FacadeMemory, TheNextOneHasTheSizeLookedFor) {
     for (auto& corner : pane.corners) corner = centre + 0.5 * (corner - centre) + Eigen::Vector2d(60.0, 0.0);
     pane.is_target = false;
     look.windows.push_back(pane);
-    watch.memory.see(look, watch.row.filtered(0, watch.now_sec), watch.row.size);
+    watch.memory.addView(look, watch.row.filtered(0, watch.now_sec), watch.row.size);
   }
   ASSERT_EQ(watch.memory.windows().size(), 2u);
   watch.memory.giveUp({watch.memory.targetId()}, true);
@@ -200,7 +201,7 @@ TEST(FacadeMemory, ANextOneThatIsNotThereIsFollowedByAnother) {
     const auto view = away ? test::WindowRow::from({-8.0, -3.8, 1.5}, 2.0) : watch.view;
     auto look = watch.row.look(watch.now_sec, view, -1, watch.random);
     look.windows.erase(std::remove_if(look.windows.begin(), look.windows.end(), gone), look.windows.end());
-    watch.memory.see(look, std::nullopt, watch.row.size);
+    watch.memory.addView(look, std::nullopt, watch.row.size);
   }
   EXPECT_NE(watch.memory.targetId(), next);
   EXPECT_NE(watch.memory.targetId(), 0u);
@@ -219,7 +220,7 @@ TEST(FacadeMemory, YieldsToAWindowThatIsClearlyMoreLikeTheReferenceUnlessItWasCh
         window.has_appearance = true;
         window.bhattacharyya = window.corners[0].x() < 150.0 ? 0.1 : 0.45;
       }
-      watch.memory.see(look, std::nullopt, watch.row.size);
+      watch.memory.addView(look, std::nullopt, watch.row.size);
     }
     EXPECT_EQ(watch.memory.targetId() != 0, is_chosen);
   }

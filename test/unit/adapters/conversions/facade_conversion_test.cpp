@@ -15,8 +15,8 @@ facade::FacadeMemory memoryOfARow() {
   facade::FacadeMemory memory{facade::FacadeParams()};
   std::mt19937 random(1);
   for (int n = 0; n < 20; ++n)
-    memory.see(row.look(10.0 + 0.1 * n, row.from({-8.0, -3.8, 1.5}), 2, random),
-               row.filtered(2, 10.0 + 0.1 * n), row.size);
+    memory.addView(row.look(10.0 + 0.1 * n, row.from({-8.0, -3.8, 1.5}), 2, random),
+                   row.filtered(2, 10.0 + 0.1 * n), row.size);
   return memory;
 }
 
@@ -43,8 +43,8 @@ TEST(FacadeConversion, AWindowIsListedAtItsThirdSight) {
   facade::FacadeMemory memory{facade::FacadeParams()};
   std::mt19937 random(1);
   for (int sights = 1; sights <= 3; ++sights) {
-    memory.see(row.look(10.0 + 0.1 * sights, row.from({-8.0, -3.8, 1.5}), -1, random), std::nullopt,
-               row.size);
+    memory.addView(row.look(10.0 + 0.1 * sights, row.from({-8.0, -3.8, 1.5}), -1, random), std::nullopt,
+                   row.size);
     EXPECT_EQ(toMsg(memory, 13.0).windows.size(), sights < 3 ? 0u : 5u);
   }
 }

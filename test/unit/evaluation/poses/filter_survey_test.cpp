@@ -62,7 +62,8 @@ Sideways flySideways(std::uint32_t seed, const estimation::FilterParams& errors,
   while (approach.flownM() < 1.0 && approach.advance()) {
     for (const auto& odometry : approach.odometry())
       estimator.addOdometry(odometry.stamp_sec, odometry.T_odom_base);
-    if (approach.isInView()) estimator.see(approach.window(), approach.camera(), approach.T_base_camera());
+    if (approach.isInView())
+      estimator.addDetection(approach.window(), approach.camera(), approach.T_base_camera());
   }
   return {script.opening, estimator.filtered(approach.timeSec())};
 }
