@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/geometry/image_border.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -116,7 +117,8 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
     if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
   if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
-  if (const double inside = distanceToBorder(fitted.corners, view.image.size()); inside < least)
+  if (const double inside = geometry::distanceToBorder(fitted.corners, view.image.cols, view.image.rows);
+      inside < least)
     return Rejection{RejectReason::kBorder, inside, least};
   if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
   if (ring_there_ < kWholeRing && reference_.frameGoesOn(view.image, fitted.corners, view.camera))

@@ -6,7 +6,7 @@
 
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/candidates/nested_quads.hpp"
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 #include "detection/reference/reference_judge.hpp"
 #include "detection/target_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"

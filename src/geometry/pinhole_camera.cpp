@@ -174,4 +174,20 @@ bool PinholeCamera::contains(const Eigen::Vector2d& pixel, double margin_px) con
          pixel.y() <= height - 1 - margin_px;
 }
 
+const PinholeCamera* lensOf(const PinholeCamera* camera) {
+  return camera && camera->hasDistortion() ? camera : nullptr;
+}
+
+Quadrilateral undistorted(Quadrilateral quad, const PinholeCamera* lens) {
+  if (lens)
+    for (auto& corner : quad) corner = lens->undistort(corner);
+  return quad;
+}
+
+Quadrilateral distorted(Quadrilateral quad, const PinholeCamera* lens) {
+  if (lens)
+    for (auto& corner : quad) corner = lens->distort(corner);
+  return quad;
+}
+
 }  // namespace window_ingress::geometry

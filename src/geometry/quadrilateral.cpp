@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// A quadrilateral clipped four times; each clip adds at most half as many points.
 struct Polygon {
   std::array<Vector2d, 20> points;
@@ -46,6 +44,8 @@ bool isFinite(const Quadrilateral& quad) {
 
 double signedArea(const Quadrilateral& quad) { return 0.5 * cross(quad[2] - quad[0], quad[3] - quad[1]); }
 
+double rootArea(const Quadrilateral& quad) { return std::sqrt(std::abs(signedArea(quad))); }
+
 bool isConvex(const Quadrilateral& quad) {
   int turns = 0;
   for (int i = 0; i < 4; ++i) {
@@ -73,6 +73,11 @@ std::array<double, 4> sideLengths(const Quadrilateral& quad) {
   return lengths;
 }
 
+double meanSide(const Quadrilateral& quad) {
+  const auto sides = sideLengths(quad);
+  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
+}
+
 std::array<double, 4> interiorAngles(const Quadrilateral& quad) {
   std::array<double, 4> angles{};
   for (int i = 0; i < 4; ++i) {
@@ -86,6 +91,12 @@ double aspectRatio(const Quadrilateral& quad) {
   const auto sides = sideLengths(quad);
   const double vertical = sides[kRight] + sides[kLeft];
   return vertical > 0.0 ? (sides[kTop] + sides[kBottom]) / vertical : 0.0;
+}
+
+double furthestCorner(const Quadrilateral& a, const Quadrilateral& b) {
+  double furthest = 0.0;
+  for (int i = 0; i < 4; ++i) furthest = std::max(furthest, (a[i] - b[i]).norm());
+  return furthest;
 }
 
 bool contains(const Quadrilateral& quad, const Vector2d& point) {

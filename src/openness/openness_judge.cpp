@@ -25,11 +25,6 @@ constexpr double kMinOpen = 0.5;                                  // of the midd
 constexpr double kMaxTotal = 12.0;
 constexpr int kOutvoted = 3;  // stretches that outweigh one that says the opposite
 
-Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& camera) {
-  for (auto& corner : quad) corner = camera.undistort(corner);
-  return quad;
-}
-
 // True if the corners match the filtered window, apart from a shift by a turn of the camera.
 bool agrees(const Quadrilateral& seen, const OpennessView& view) {
   const auto expected = geometry::projectOpening(
@@ -106,7 +101,7 @@ void OpennessJudge::see(const OpennessView& view) {
       !geometry::isValidPose(view.T_odom_window) ||
       !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
     return;
-  if (!agrees(undistorted(window.corners, view.camera), view)) return;
+  if (!agrees(geometry::undistorted(window.corners, &view.camera), view)) return;
   remember(view);
   if (window.interior.empty()) return;
   const double key_sec = window.interior.key_stamp_sec;
@@ -121,8 +116,9 @@ void OpennessJudge::see(const OpennessView& view) {
 void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T_odom_camera_key) {
   const auto& [window, camera, T_odom_camera, T_odom_window, opening] = view;
   opening_ = opening;
-  const SeenBorder key{undistorted(window.interior.key_corners, camera), window.interior.key_covariance};
-  const SeenBorder now{undistorted(window.corners, camera), window.corner_covariance};
+  const SeenBorder key{geometry::undistorted(window.interior.key_corners, &camera),
+                       window.interior.key_covariance};
+  const SeenBorder now{geometry::undistorted(window.corners, &camera), window.corner_covariance};
   const auto pair = PlaneParallax::between(camera, key, now, T_odom_camera_key.inverse() * T_odom_window,
                                            T_odom_camera.inverse() * T_odom_window,
                                            {kBorderSigma_px, kPositionSigma_m, window.interior.sigma_px});

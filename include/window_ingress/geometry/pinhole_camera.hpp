@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "window_ingress/geometry/finite_math.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::geometry {
 
@@ -61,5 +62,12 @@ struct PinholeCamera {
   /// True if the pixel lies in the image, at least `margin_px` inside its border.
   bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const;
 };
+
+/// The camera if its lens distorts the image, else null.
+const PinholeCamera* lensOf(const PinholeCamera* camera);
+
+/// Convert corners between raw and undistorted image. \param lens null: no distortion
+Quadrilateral undistorted(Quadrilateral quad, const PinholeCamera* lens);
+Quadrilateral distorted(Quadrilateral quad, const PinholeCamera* lens);
 
 }  // namespace window_ingress::geometry

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "detection/quads.hpp"
 #include "evaluation/csv.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -89,7 +89,7 @@ std::string truthValues(const evaluation::TruthErrors& errors) {
   for (const auto& value : {errors.yaw_rad, errors.distance_m})
     values += value ? "," + formatted("%.6f", *value) : ",";
   if (!errors.found || !errors.truth) return values + ",";
-  return values + "," + formatted("%.4f", detection::furthestCorner(*errors.found, *errors.truth));
+  return values + "," + formatted("%.4f", geometry::furthestCorner(*errors.found, *errors.truth));
 }
 
 std::string opennessValues(const openness::OpennessVerdict& verdict) {

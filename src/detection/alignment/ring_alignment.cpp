@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -65,7 +66,8 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
 
 RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
-  if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
+  if (view_.meanLog() < logOf(kDimRing))
+    seen = view_.look(quad, 0.5 * std::min(side_px, geometry::meanSide(quad)));
   RingMatch match;
   if (seen >= RingView::kMinSeen) match = judgement_.of(view_);
   match.correlation = beyondChance(match.correlation);
@@ -157,7 +159,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
                                 int most_steps) {
   RingMatch best;
   Matrix3d at = map;
-  const double reach_px = kFurthest * meanSide(start);
+  const double reach_px = kFurthest * geometry::meanSide(start);
   int best_step = 0;
   double best_fit = -1.0;
   for (int n = 0;; ++n) {
@@ -171,7 +173,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
     at = at * step->inverse();
     at /= at(2, 2);
     Quadrilateral quad;
-    if (!cornersOf(at, quad) || furthestCorner(quad, start) > reach_px) break;
+    if (!cornersOf(at, quad) || geometry::furthestCorner(quad, start) > reach_px) break;
     if ((*step - Matrix3d::Identity()).cwiseAbs().maxCoeff() * scale.ring->side_px < kStill_px)
       n = most_steps - 1;
   }
@@ -214,11 +216,11 @@ std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
 
 std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, double finest_px,
                                                 double coarsest_px) {
-  const Quadrilateral ideal = undistorted(start, view_.lens());
+  const Quadrilateral ideal = geometry::undistorted(start, view_.lens());
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
   Matrix3d map = mapFromCentre(ideal);
   map /= map(2, 2);
-  const double side_px = meanSide(ideal), finest = std::min(finest_px, side_px);
+  const double side_px = geometry::meanSide(ideal), finest = std::min(finest_px, side_px);
   spread_ = kFirstSpread;
   AlignedRing found;
   int last_level = -1;
@@ -237,7 +239,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
     break;
   }
   if (!cornersOf(map, found.quad)) return std::nullopt;
-  found.quad = distorted(found.quad, view_.lens());
+  found.quad = geometry::distorted(found.quad, view_.lens());
   return found;
 }
 
@@ -255,12 +257,12 @@ std::optional<int> RingAlignment::hiddenSide() const {
 }
 
 std::optional<AlignedRing> RingAlignment::uncovered(const Quadrilateral& quad, double finest_px) {
-  const Quadrilateral ideal = undistorted(quad, view_.lens());
+  const Quadrilateral ideal = geometry::undistorted(quad, view_.lens());
   if (!leaves_out_ || !geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
   Matrix3d map = mapFromCentre(ideal);
   map /= map(2, 2);
   if (prior_->misfit(map) < kContradicts) return std::nullopt;
-  const double side_px = meanSide(ideal);
+  const double side_px = geometry::meanSide(ideal);
   const RingView::Scale scale = view_.scaleFor(side_px, std::min(finest_px, side_px));
   view_.look(scale, map);
   readSegments();
@@ -277,17 +279,17 @@ std::optional<AlignedRing> RingAlignment::uncovered(const Quadrilateral& quad, d
   const double sigma_px = start->sigma_px;
   found.sides[*found.hidden] = {sigma_px, sigma_px * std::sqrt(12.0) / side_px};
   if (!cornersOf(map, found.quad)) return std::nullopt;
-  found.quad = distorted(found.quad, view_.lens());
+  found.quad = geometry::distorted(found.quad, view_.lens());
   return found;
 }
 
 std::optional<Quadrilateral> RingAlignment::completed(const Quadrilateral& quad, int side) const {
-  const Quadrilateral ideal = undistorted(quad, view_.lens());
+  const Quadrilateral ideal = geometry::undistorted(quad, view_.lens());
   if (!prior_ || !geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
   const auto map = prior_->completed(mapFromCentre(ideal), side);
   Quadrilateral whole;
   if (!map || !cornersOf(map->map, whole)) return std::nullopt;
-  return distorted(whole, view_.lens());
+  return geometry::distorted(whole, view_.lens());
 }
 
 }  // namespace window_ingress::detection

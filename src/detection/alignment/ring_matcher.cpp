@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -77,7 +78,7 @@ std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough
 RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   RingMatch match = alignment_.judge(quad, kFinestPx);
   if (match.contrast >= kPale) return match;
-  const RingMatch coarse = alignment_.judge(quad, 0.5 * std::min(kFinestPx, meanSide(quad)));
+  const RingMatch coarse = alignment_.judge(quad, 0.5 * std::min(kFinestPx, geometry::meanSide(quad)));
   if (coarse.contrast > kUnsharp * match.contrast)
     match.faithful = coarse.faithful, match.faithful_uncovered = coarse.faithful_uncovered;
   return match;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 
 namespace window_ingress::detection {
 namespace {

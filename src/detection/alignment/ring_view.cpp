@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -116,7 +117,7 @@ void RingView::set(const RingModel& model, const cv::Mat& image, const geometry:
                    bool covered) {
   model_ = &model;
   covered_ = covered;
-  lens_ = lensOf(camera);
+  lens_ = geometry::lensOf(camera);
   pyramid_.set(image);
 }
 
@@ -180,9 +181,9 @@ double RingView::look(const Scale& scale, const Matrix3d& map, bool nearby) {
 }
 
 double RingView::look(const Quadrilateral& quad, double side_px) {
-  const Quadrilateral ideal = undistorted(quad, lens_);
+  const Quadrilateral ideal = geometry::undistorted(quad, lens_);
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return 0.0;
-  return look(scaleFor(meanSide(ideal), side_px), mapFromCentre(ideal));
+  return look(scaleFor(geometry::meanSide(ideal), side_px), mapFromCentre(ideal));
 }
 
 float RingView::meanLog() const {

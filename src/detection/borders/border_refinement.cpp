@@ -9,7 +9,7 @@
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
 #include "detection/borders/subpixel_border.hpp"
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -89,8 +89,8 @@ class Side {
            double radius_px) {
     const int radius = static_cast<int>(std::ceil(radius_px));
     const int reach = radius + static_cast<int>(std::ceil(limits_.radius_px)) + 2;
-    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * kSkip)), 4, kSamples);
-    memory_.profiles.sample(image, lens, {a, b, count_, kSkip, reach});
+    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * kEndMargin)), 4, kSamples);
+    memory_.profiles.sample(image, lens, {a, b, count_, kEndMargin, reach});
     shows_edge_ = memory_.fit.projectStrongest(memory_.profiles, radius_px);
     if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
     if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > reachOf(radius_px)) return false;
@@ -218,7 +218,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
   limits.radius_px *= scale;
   limits.outlier_px *= scale;
-  const geometry::PinholeCamera* lens = lensOf(camera);
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
   std::array<Line, 4> lines;
   RefinedBorders borders;
   double worst = 1.0;

@@ -110,7 +110,7 @@ void EdgeProfiles::sample(const cv::Mat& image, const geometry::PinholeCamera* l
   position_.resize(count_);
   inside_.assign(count_, 0);
   for (int i = 0; i < count_; ++i)
-    position_[i] = length_ * (-0.5 + grid.skip + (1.0 - 2.0 * grid.skip) * (i + 0.5) / count_);
+    position_[i] = length_ * (-0.5 + grid.end_margin + (1.0 - 2.0 * grid.end_margin) * (i + 0.5) / count_);
   if (channels_ == 1)
     grid.rough ? fill<1, true>(image, lens) : fill<1, false>(image, lens);
   else

@@ -9,13 +9,16 @@
 
 namespace window_ingress::detection {
 
+/// Left out at both ends of a side, because corners are rounded [its lengths].
+inline constexpr double kEndMargin = 0.06;
+
 /// Where profiles are taken: across a straight stretch of the undistorted image.
 struct ProfileGrid {
-  Eigen::Vector2d from, to;  ///< ends of the stretch [px]
-  int count = 80;            ///< profiles, evenly spaced
-  double skip = 0.06;        ///< left out at both ends, in lengths of the stretch
-  int reach_px = 6;          ///< samples on either side, one raw pixel apart
-  bool rough = false;        ///< nearest pixel instead of interpolation
+  Eigen::Vector2d from, to;        ///< ends of the stretch [px]
+  int count = 80;                  ///< profiles, evenly spaced
+  double end_margin = kEndMargin;  ///< left out at both ends, in lengths of the stretch
+  int reach_px = 6;                ///< samples on either side, one raw pixel apart
+  bool rough = false;              ///< nearest pixel instead of interpolation
 };
 
 /// Width of a raw pixel in undistorted pixels, across a stretch at its middle; 1 without a lens.

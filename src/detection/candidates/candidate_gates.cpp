@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/image_border.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -43,7 +43,7 @@ std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& 
     return Rejection{RejectReason::kSolidity, candidate.solidity, kMinSolidity};
   const double angle = worstAngle(candidate.quad);
   if (angle > params.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params.max_angle_rad};
-  const double margin = distanceToBorder(candidate.seen, image);
+  const double margin = geometry::distanceToBorder(candidate.seen, image.width, image.height);
   const double limit = kBorderPart * std::max(image.width, image.height);
   if (margin < limit) return Rejection{RejectReason::kBorder, margin, limit};
   return std::nullopt;

@@ -4,7 +4,7 @@
 
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/side_support.hpp"
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 
 namespace window_ingress::detection {
 namespace {

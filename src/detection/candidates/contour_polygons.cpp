@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detection/candidates/side_support.hpp"
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -22,12 +22,12 @@ constexpr int kMaxContours = 3000;      ///< number of outlines examined per ima
 bool meetBeyond(const Vector2d& before, const Vector2d& a, const Vector2d& b, const Vector2d& after,
                 Vector2d& meet, double& added) {
   const Vector2d u = a - before, v = after - b;
-  const double sine = cross(u, v);
+  const double sine = geometry::cross(u, v);
   if (std::abs(sine) < 1e-6 * u.norm() * v.norm()) return false;
-  const double s = cross(b - a, v) / sine, t = cross(b - a, u) / sine;
+  const double s = geometry::cross(b - a, v) / sine, t = geometry::cross(b - a, u) / sine;
   if (s < 0.0 || t > 0.0) return false;
   meet = a + s * u;
-  added = 0.5 * std::abs(cross(b - a, meet - a));
+  added = 0.5 * std::abs(geometry::cross(b - a, meet - a));
   return true;
 }
 
@@ -61,7 +61,7 @@ geometry::Quadrilateral grown(const geometry::Quadrilateral& quad, double distan
   for (int i = 0; i < 4; ++i) {
     const Vector2d before = (quad[i] - quad[(i + 3) % 4]).normalized();
     const Vector2d after = (quad[(i + 1) % 4] - quad[i]).normalized();
-    result[i] = quad[i] + (before - after) * (distance_px / cross(before, after));
+    result[i] = quad[i] + (before - after) * (distance_px / geometry::cross(before, after));
   }
   return result;
 }

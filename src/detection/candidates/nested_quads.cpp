@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -30,7 +30,7 @@ cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
 
 // Distance of a point from side i of a quadrilateral in canonical order, positive towards its inside.
 double depth(const Quadrilateral& quad, int i, const Vector2d& point) {
-  return cross((quad[(i + 1) % 4] - quad[i]).normalized(), point - quad[i]);
+  return geometry::cross((quad[(i + 1) % 4] - quad[i]).normalized(), point - quad[i]);
 }
 
 bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
@@ -82,7 +82,7 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
     least = std::min(least, width);
     most = std::max(most, width);
   }
-  return most <= kMaxRing * meanSide(outer) + tolerance_px && most > tolerance_px &&
+  return most <= kMaxRing * geometry::meanSide(outer) + tolerance_px && most > tolerance_px &&
          most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -57,12 +58,12 @@ int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& c
 
 // Intersection of two lines, if both segments come near enough.
 bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const {
-  const double sine = cross(p.way, q.way);
+  const double sine = geometry::cross(p.way, q.way);
   if (std::abs(sine) < kMinCornerSine * p.length * q.length) return false;
   const Vector2d d = q.start - p.start;
-  const double t_p = cross(d, q.way) / sine;
+  const double t_p = geometry::cross(d, q.way) / sine;
   if (std::abs(t_p - 0.5) > p.reach) return false;
-  const double t_q = cross(d, p.way) / sine;
+  const double t_q = geometry::cross(d, p.way) / sine;
   if (std::abs(t_q - 0.5) > q.reach) return false;
   junction.t_own = static_cast<float>(t_p), junction.t_other = static_cast<float>(t_q);
   junction.from_left = sine > 0.0;

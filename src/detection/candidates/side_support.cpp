@@ -4,7 +4,8 @@
 #include <bitset>
 #include <cmath>
 
-#include "detection/quads.hpp"
+#include "detection/borders/edge_profiles.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -87,11 +88,11 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   const double length = along.norm();
   if (length < 1.0) return support;
   const Probe probe = {Vector2d(along.y(), -along.x()) / length, kReachPx};
-  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * kSkip)), 4, 16);
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * kEndMargin)), 4, 16);
   int hits = 0;
   double strength = 0.0, worth = 0.0;
   for (int i = 0; i < samples; ++i) {
-    const double t = kSkip + (1.0 - 2.0 * kSkip) * (i + 0.5) / samples;
+    const double t = kEndMargin + (1.0 - 2.0 * kEndMargin) * (i + 0.5) / samples;
     const Hit hit = hitNear(level, a + t * along, probe);
     if (hit.worth <= 0.0) continue;
     ++hits;
@@ -118,7 +119,7 @@ class OutlinedSide {
   void see(const Vector2d& point) {
     const Vector2d from_start = point - start_;
     const double t = along_.dot(from_start) / length_;
-    if (t >= 0.0 && t < 1.0 && std::abs(cross(along_, from_start)) <= kOutlinePx)
+    if (t >= 0.0 && t < 1.0 && std::abs(geometry::cross(along_, from_start)) <= kOutlinePx)
       seen_.set(static_cast<std::size_t>(t * parts_));
   }
   SideSupport support() const {

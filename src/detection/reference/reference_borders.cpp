@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
 #include "detection/reference/haze.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -161,8 +161,8 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
                                                                   const geometry::PinholeCamera* camera,
                                                                   const Effort& effort) {
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
-  const geometry::PinholeCamera* lens = lensOf(camera);
-  const Quadrilateral ideal = undistorted(rough, lens);
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  const Quadrilateral ideal = geometry::undistorted(rough, lens);
   measure(image, ideal, lens, effort);
   darkest_ = 255.0F;
   for (const SideProfile& side : sides_)
@@ -179,9 +179,9 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
   for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
   const geometry::UnitSquare map(ideal);
-  located.quad = distorted({map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
-                            map.toImage({left, bottom})},
-                           lens);
+  located.quad = geometry::distorted({map.toImage({left, top}), map.toImage({right, top}),
+                                      map.toImage({right, bottom}), map.toImage({left, bottom})},
+                                     lens);
   if (!geometry::isFinite(located.quad) || !geometry::isConvex(located.quad)) return std::nullopt;
   return located;
 }

@@ -4,9 +4,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detection/candidates/candidate_gates.hpp"
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 #include "detection/reference/haze.hpp"
 #include "detection/reference/ring_histogram.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -244,8 +245,9 @@ std::optional<AlignedRing> ReferenceJudge::uncovered(const geometry::Quadrilater
 
 int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                 const geometry::PinholeCamera* camera) {
-  const geometry::PinholeCamera* lens = lensOf(camera);
-  measureSides(inChannels(image), undistorted(corners, lens), lens, {kStepReach, kStepReach}, sides_);
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  measureSides(inChannels(image), geometry::undistorted(corners, lens), lens, {kStepReach, kStepReach},
+               sides_);
   return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), [](const SideProfile& side) {
     Eigen::Vector3f within, without;
     return side.mean(-kStepTo, -kStepFrom, within) && side.mean(kStepFrom, kStepTo, without) &&
@@ -256,8 +258,8 @@ int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilate
 bool ReferenceJudge::frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                  const geometry::PinholeCamera* camera) {
   if (frameless() || !compares(image)) return false;
-  const geometry::PinholeCamera* lens = lensOf(camera);
-  const FrameEnds here = framesBeyond(inChannels(image), undistorted(corners, lens), lens, sides_);
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  const FrameEnds here = framesBeyond(inChannels(image), geometry::undistorted(corners, lens), lens, sides_);
   for (int side = 0; side < 4; ++side)
     for (int end = 0; end < 2; ++end)
       if (here[side][end] && !beyond_[side][end]) return true;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -130,7 +131,7 @@ void ReferenceShape::learn(const cv::Mat& image, const Quadrilateral& opening) {
   seen_aspect_ = geometry::aspectRatio(opening);
   if (image.type() != CV_8UC3) return;
   measureSides(image, opening, nullptr, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
-  const double thinnest = std::max(kThinnest, kBlur_px / meanSide(opening));
+  const double thinnest = std::max(kThinnest, kBlur_px / geometry::meanSide(opening));
   for (int i = 0; i < 4; ++i) {
     double end = 0.0;
     if (sides_[i].largestChange(thinnest, kWidest, &end) < kMinFrameContrast) continue;
@@ -154,7 +155,8 @@ std::optional<Rejection> ReferenceShape::inAspect(const Quadrilateral& corners,
     if (off <= kMaxFactor) return std::nullopt;
     return Rejection{RejectReason::kOtherAspect, off, kMaxFactor};
   }
-  const auto seen = rectangleMisfit(undistorted(corners, lensOf(camera)), covariance, *camera, *aspect());
+  const auto seen = rectangleMisfit(geometry::undistorted(corners, geometry::lensOf(camera)), covariance,
+                                    *camera, *aspect());
   if (!seen || *seen <= kMaxSigmas) return std::nullopt;
   return Rejection{RejectReason::kOtherAspect, *seen, kMaxSigmas};
 }
@@ -164,8 +166,8 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
   if (image.type() != CV_8UC3 || !geometry::isFinite(corners) || !geometry::isConvex(corners))
     return std::nullopt;
   if (*std::max_element(frame_.begin(), frame_.end()) <= 0.0) return std::nullopt;
-  const PinholeCamera* lens = lensOf(camera);
-  const Quadrilateral ideal = undistorted(corners, lens);
+  const PinholeCamera* lens = geometry::lensOf(camera);
+  const Quadrilateral ideal = geometry::undistorted(corners, lens);
   measureSides(image, ideal, lens, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   ratios_.clear();
   double widths = 0.0;
@@ -175,7 +177,8 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
     if (width > 0.0) ratios_.push_back(width / frame_[i]), widths += frame_[i];
   }
   if (static_cast<int>(ratios_.size()) < kFewestSides) return std::nullopt;
-  return middleOf(ratios_, kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
+  return middleOf(ratios_,
+                  kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * geometry::meanSide(ideal)));
 }
 
 std::optional<Rejection> ReferenceShape::inFrame(const cv::Mat& image, const Quadrilateral& corners,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -85,7 +85,8 @@ void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
   const geometry::UnitSquare map(ideal);
   const double width = 2.0 * reach.aspect / (1.0 + reach.aspect), height = 2.0 / (1.0 + reach.aspect);
   const double length = reach.inward + reach.outward;
-  const int steps = std::clamp(static_cast<int>(length * meanSide(ideal)), kFewestAcross, reach.across);
+  const int steps =
+      std::clamp(static_cast<int>(length * geometry::meanSide(ideal)), kFewestAcross, reach.across);
   for (int i = 0; i < 4; ++i) {
     SideProfile& profile = sides[i];
     profile.first = -reach.inward;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "detection/borders/edge_profiles.hpp"
-#include "detection/quads.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -111,7 +110,7 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   const int reach =
       static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px / pixel + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinFollowed, kProfiles);
-  coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
+  coarse_.sample(image, lens, {stretch->from, stretch->to, count, kEndMargin, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px / coarse_.pixel());
   border.similarity = match ? match->similarity : 0.0;
   border.fitted =
@@ -124,10 +123,10 @@ bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens,
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
                radius_px = scale * SubpixelBorderLimits().radius_px;
   const int count =
-      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kMinFollowed, kFineProfiles);
+      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kEndMargin)), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
-               {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
-                static_cast<int>(std::ceil(radius_px)) + 5});
+               {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count,
+                kEndMargin, static_cast<int>(std::ceil(radius_px)) + 5});
   if (!soft_) soft_ = isColourSoft(fine_);
   fit_.project(fine_, *soft_ ? resolvedPart(memory_.colour()).normalized() : memory_.colour());
   FittedBorder fitted;
@@ -172,7 +171,7 @@ bool EdgeTracker::keepApart(const Line& border, double size_px, double furthest_
 void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                         double size_px) {
   half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
-  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
+  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kEndMargin, half_px_ + 3, true});
   apart_ = {};
   soft_.reset();
   memory_.clear();
@@ -184,7 +183,7 @@ void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera*
   const double scale = scaleOf(image), radius_px = kFoundWithinPx * scale, half = 0.5 * border.length();
   const int count = std::clamp(static_cast<int>(border.length()), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
-               {border.from, border.to, count, kSkip, static_cast<int>(std::ceil(radius_px)) + 4});
+               {border.from, border.to, count, kEndMargin, static_cast<int>(std::ceil(radius_px)) + 4});
   FittedBorder edge;
   const SubpixelBorderLimits limits{radius_px, kPriorPx * scale, kRoughPx * scale};
   if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run(limits, edge) ||

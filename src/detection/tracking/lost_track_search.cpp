@@ -1,8 +1,9 @@
 /// The tracker's search for an untracked window: a new one, or the one that was lost.
 #include <algorithm>
 
-#include "detection/quads.hpp"
+#include "detection/quad_sameness.hpp"
 #include "detection/tracking/window_tracker_impl.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -24,7 +25,7 @@ std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInp
   std::vector<const CandidateTrace*> others;
   for (const CandidateTrace& other : detector.trace().candidates)
     if (other.reject == RejectReason::kOutscored &&
-        memory.isSame(undistorted(other.quad, images.lens()), motion.quad()))
+        memory.isSame(geometry::undistorted(other.quad, images.lens()), motion.quad()))
       others.push_back(&other);
   std::stable_sort(others.begin(), others.end(),
                    [](const auto* a, const auto* b) { return a->score > b->score; });
@@ -41,7 +42,8 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
   const bool remembers = has_motion && memory.remembers(input.stamp_sec);
-  bool is_same = remembers && memory.isSame(undistorted(found->corners, images.lens()), motion.quad());
+  bool is_same =
+      remembers && memory.isSame(geometry::undistorted(found->corners, images.lens()), motion.quad());
   if (remembers && !is_same) {
     if (auto other = amongOthers(input, *found)) found = other, is_same = true;
   }

@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "detection/borders/lines.hpp"
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -71,15 +72,16 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
 void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Quadrilateral& quad,
                         bool is_known) {
   const auto learn = is_known ? &EdgeTracker::learnNear : &EdgeTracker::learn;
-  for (int i = 0; i < 4; ++i) (edges_[i].*learn)(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
+  for (int i = 0; i < 4; ++i)
+    (edges_[i].*learn)(image, lens, {quad[i], quad[(i + 1) % 4]}, geometry::meanSide(quad));
 }
 
 bool QuadTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
   const Quadrilateral predicted = motion.predicted();
   in_view_ = sought_ = fitted_ = 0;
   for (int i = 0; i < 4; ++i) {
-    borders_[i] = edges_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]}, meanSide(predicted),
-                                   motion.sigmaAcross(i));
+    borders_[i] = edges_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]},
+                                   geometry::meanSide(predicted), motion.sigmaAcross(i));
     in_view_ += borders_[i].in_view;
     sought_ += borders_[i].sought;
     fitted_ += borders_[i].fitted;
@@ -105,7 +107,7 @@ bool QuadTracker::keepsShape(const QuadMotion& motion) const {
   const Quadrilateral now = motion.quad();
   if (!geometry::isFinite(now) || !geometry::isConvex(now) || !(geometry::signedArea(now) > 0.0))
     return false;
-  const double slack_px = std::max(kMinSlackPx, kMaxShapeChange * meanSide(now));
+  const double slack_px = std::max(kMinSlackPx, kMaxShapeChange * geometry::meanSide(now));
   return warpBetween(motion.predicted(), now) <= slack_px;
 }
 
@@ -127,12 +129,12 @@ void QuadTracker::describe(const cv::Mat& image, const geometry::PinholeCamera* 
 
 void QuadTracker::keep(const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i)
-    if (borders_[i].fitted) edges_[i].keep(meanSide(quad));
+    if (borders_[i].fitted) edges_[i].keep(geometry::meanSide(quad));
 }
 
 bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* lens,
                           const RefinedBorders& borders, QuadMotion& motion) {
-  const Quadrilateral quad = undistorted(borders.corners, lens), followed = motion.quad();
+  const Quadrilateral quad = geometry::undistorted(borders.corners, lens), followed = motion.quad();
   int first = 0;  // index of the corner that corresponds to the first tracked one
   for (int i = 1; i < 4; ++i)
     if ((quad[i] - followed[0]).norm() < (quad[first] - followed[0]).norm()) first = i;
@@ -146,14 +148,15 @@ bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* l
     const double pixel = pixelAcross(lens, from, to);
     const Line border{0.5 * (from + to), {along.y(), -along.x()}, pixel * edge.sigma_px, edge.sigma_rad};
     const bool shows = borders.fitted[(first + i) % 4];
-    const double furthest_px = shows ? kApartPx * pixel : kApartUnseen * meanSide(followed);
+    const double furthest_px = shows ? kApartPx * pixel : kApartUnseen * geometry::meanSide(followed);
     const SideSigma& known = borders.known[(first + i) % 4];
     const bool is_cut =
         std::min(marginOf(image, from), marginOf(image, to)) < kCutPart * std::max(image.cols, image.rows);
     const bool is_vague = (!known.known() || known.px > kVaguePx * pixel) && (is_cut || !shows);
-    if (borders_[i].fitted && (is_vague || edges_[i].keepApart(border, meanSide(followed), furthest_px)))
+    if (borders_[i].fitted &&
+        (is_vague || edges_[i].keepApart(border, geometry::meanSide(followed), furthest_px)))
       continue;
-    edges_[i].learnNear(image, lens, {from, to}, meanSide(quad));
+    edges_[i].learnNear(image, lens, {from, to}, geometry::meanSide(quad));
     learned = true;
   }
   if (learned) motion.place(placed);

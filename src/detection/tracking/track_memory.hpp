@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "detection/quads.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -50,7 +49,7 @@ class TrackMemory {
   /// True if the window at `seen` is the one expected at `expected`: its centre within the gate, its size
   /// similar.
   bool isSame(const geometry::Quadrilateral& seen, const geometry::Quadrilateral& expected) const {
-    const double a = sizeOf(seen), b = sizeOf(expected);
+    const double a = geometry::rootArea(seen), b = geometry::rootArea(expected);
     const double off = (geometry::centroid(seen) - geometry::centroid(expected)).norm();
     return off < params_.reacquire_gate * std::min(a, b) && std::max(a, b) < kSizeRatio * std::min(a, b);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "detection/quads.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -56,7 +55,7 @@ class TrackRecheck {
   /// \return true: track this answer instead
   bool prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
     if (!searched || !geometry::isFinite(*searched)) return false;
-    const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
+    const double size = geometry::rootArea(followed), off = geometry::furthestCorner(*searched, followed);
     if (!(off > std::max(kAgreePx, kAgreePart * size))) {
       against_ = 0;
       if (++for_ >= params_.confirmations) confirmed_ = true, doubtful_ = false, for_ = asked_ = 0;
@@ -64,7 +63,7 @@ class TrackRecheck {
     }
     if (confirmed_ && off > kSameSpot * size) return false;
     const Quadrilateral rival = relativeTo(followed, *searched);
-    against_ = against_ > 0 && furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
+    against_ = against_ > 0 && geometry::furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
     rival_ = rival;
     if (against_ < params_.confirmations) return false;
     restart();
@@ -84,7 +83,7 @@ class TrackRecheck {
   static Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
     Quadrilateral relative;
     for (int i = 0; i < 4; ++i)
-      relative[i] = (quad[i] - geometry::centroid(frame)) / std::max(1.0, sizeOf(frame));
+      relative[i] = (quad[i] - geometry::centroid(frame)) / std::max(1.0, geometry::rootArea(frame));
     return relative;
   }
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
 #include "detection/tracking/window_tracker_impl.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -37,7 +38,7 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
 
 // Keeps a track at the expected place; drops one elsewhere.
 void WindowTracker::Impl::heedExpected(const TrackInput& input) {
-  const geometry::Quadrilateral place = undistorted(*input.expected, images.lens());
+  const geometry::Quadrilateral place = geometry::undistorted(*input.expected, images.lens());
   if (tracking) {
     frames_elsewhere = memory.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
     if (frames_elsewhere < kElsewhereFrames) return;
@@ -56,7 +57,7 @@ bool WindowTracker::Impl::knowsTurn() const {
 }
 
 QuadSpread WindowTracker::Impl::spread() const {
-  const double side = sizeOf(motion.quad()), elapsed_sec = images.elapsedSec();
+  const double side = geometry::rootArea(motion.quad()), elapsed_sec = images.elapsedSec();
   const double unforeseen_px = images.longerSide() * elapsed_sec;
   const double place_px = knowsTurn() ? std::hypot(kKnownTurn * kTurn * unforeseen_px, images.turnSigmaPx())
                                       : kTurn * unforeseen_px;
@@ -86,7 +87,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
 
 // Tracks the window of the search.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
-  const geometry::Quadrilateral quad = undistorted(found.corners, images.lens());
+  const geometry::Quadrilateral quad = geometry::undistorted(found.corners, images.lens());
   memory.found(is_same, input.stamp_sec);
   if (is_same)
     recheck.restart(), reference.restart();
@@ -118,7 +119,7 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
   if (--frames_to_alignment > 0 || quad_tracker.inView() < 4) return;
   frames_to_alignment = kAlignEvery;
   const auto borders =
-      detector.bordersNear(distorted(motion.quad(), images.lens()), input.image, input.camera);
+      detector.bordersNear(geometry::distorted(motion.quad(), images.lens()), input.image, input.camera);
   if (!borders) return;
   if (!quad_tracker.realign(input.image, images.lens(), *borders, motion)) return;
   window.corners = borders->corners;
@@ -148,9 +149,11 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   frames_to_completion = kCompletionFrames;
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
-  const geometry::Quadrilateral seen = undistorted(found->corners, images.lens()), expected = motion.quad();
+  const geometry::Quadrilateral seen = geometry::undistorted(found->corners, images.lens()),
+                                expected = motion.quad();
   const double limit_px = 2.0 * EdgeTracker::kReach * images.longerSide();
-  if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
+  if (!geometry::isFinite(expected) || !(geometry::furthestCorner(seen, expected) < limit_px))
+    return std::nullopt;
   has_own_trace = false;
   take(input, *found, true);
   return found;
@@ -161,9 +164,10 @@ std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput
   if (quad_tracker.inView() < 4 || !recheck.isDue()) return std::nullopt;
   auto found = lookForWindow(input);
   std::optional<geometry::Quadrilateral> searched;
-  if (found && place_is_expected && !memory.isSame(undistorted(found->corners, images.lens()), motion.quad()))
+  if (found && place_is_expected &&
+      !memory.isSame(geometry::undistorted(found->corners, images.lens()), motion.quad()))
     found = amongOthers(input, *found);
-  if (found) searched = undistorted(found->corners, images.lens());
+  if (found) searched = geometry::undistorted(found->corners, images.lens());
   if (!recheck.prefers(searched, motion.quad())) return std::nullopt;
   has_own_trace = false;
   take(input, *found, memory.isSame(*searched, motion.quad()));

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "detection/quads.hpp"
 #include "evaluation/csv.hpp"
 #include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -88,8 +88,8 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   consider(truth.far, SurveyVerdict::kFarBorder);
   if (geometry::intersectionOverUnion(*found, *nearest) < kOtherWindowIou) return SurveyVerdict::kWrongTarget;
   if (border != SurveyVerdict::kInexact) return border;
-  return detection::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit
-                                                                                     : border;
+  return geometry::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit
+                                                                                    : border;
 }
 
 SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
@@ -125,7 +125,7 @@ std::string surveyRow(const SurveyResult& result) {
   if (window && window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   text += ",";
   if (window && result.truth.present)
-    text += formatted("%.3f", detection::furthestCorner(window->corners, result.truth.inner));
+    text += formatted("%.3f", geometry::furthestCorner(window->corners, result.truth.inner));
   text += window ? csvCorners(window->corners, "%.4f") : ",,,,,,,,";
   text += csvCorners(result.truth.inner, "%.4f");
   return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +

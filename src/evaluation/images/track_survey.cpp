@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -86,7 +86,7 @@ void judge(TrackResult& result, const geometry::PinholeCamera& camera) {
   result.error_px = 0.0;
   if (result.window)
     result.error_px = result.window->whole()
-                          ? detection::furthestCorner(result.window->corners, result.truth.inner)
+                          ? geometry::furthestCorner(result.window->corners, result.truth.inner)
                           : worstSideDistance(*result.window, result.truth.inner, camera);
   result.verdict = verdictOf(result);
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
 #include "evaluation/images/track_survey.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/median.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -25,7 +25,7 @@ double medianOrZero(std::vector<double> values) { return values.empty() ? 0.0 : 
 }  // namespace
 
 double hitTolerance(const geometry::Quadrilateral& truth) {
-  return std::max(kTolerance_px, kTolerance * detection::meanSide(truth));
+  return std::max(kTolerance_px, kTolerance * geometry::meanSide(truth));
 }
 
 TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& window,

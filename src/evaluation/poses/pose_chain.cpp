@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detection/quads.hpp"
 #include "estimation/planar/relative_yaw.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -117,7 +117,7 @@ std::string borderRow(int distance_m, int side, const Group& group) {
 std::array<std::optional<BorderError>, 4> borderErrors(const detection::WindowObservation& window,
                                                        const Quadrilateral& truth,
                                                        const geometry::PinholeCamera& camera) {
-  const Quadrilateral ideal = detection::undistorted(truth, &camera);
+  const Quadrilateral ideal = geometry::undistorted(truth, &camera);
   std::array<std::optional<BorderError>, 4> errors;
   for (int i = 0; i < 4; ++i) {
     const detection::Edge& edge = window.edges[i];

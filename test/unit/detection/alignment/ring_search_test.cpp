@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "detection/quads.hpp"
 #include "patched_wall.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection::ring_search_test {
 
@@ -18,7 +18,7 @@ using test::seenFrom;
 double offBy(const std::vector<RingSearch::Place>& places, const Quadrilateral& opening) {
   double least = 10.0;
   for (const auto& place : places)
-    least = std::min(least, test::worstCorner(place.quad, opening) / meanSide(opening));
+    least = std::min(least, test::worstCorner(place.quad, opening) / geometry::meanSide(opening));
   return least;
 }
 

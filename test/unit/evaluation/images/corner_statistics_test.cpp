@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "detection/quads.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::evaluation::corner_statistics_test {
 
@@ -79,7 +79,7 @@ TEST(CornerStatistics, OfNothingIsZero) {
 TEST(CornerStatistics, DistancesBetweenTwo) {
   Quadrilateral other = kTruth;
   other[2] += Vector2d(3.0, 4.0);
-  EXPECT_NEAR(detection::furthestCorner(other, kTruth), 5.0, 1e-12);
+  EXPECT_NEAR(geometry::furthestCorner(other, kTruth), 5.0, 1e-12);
   EXPECT_NEAR(meanCornerDistance(other, kTruth), 1.25, 1e-12);
 }
 
