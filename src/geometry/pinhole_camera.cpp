@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/geometry/image_border.hpp"
+
 namespace window_ingress::geometry {
 namespace {
 
@@ -170,8 +172,7 @@ Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& distorted_px) const {
 }
 
 bool PinholeCamera::contains(const Eigen::Vector2d& pixel, double margin_px) const {
-  return pixel.x() >= margin_px && pixel.y() >= margin_px && pixel.x() <= width - 1 - margin_px &&
-         pixel.y() <= height - 1 - margin_px;
+  return isInside(pixel, width, height, margin_px);
 }
 
 const PinholeCamera* lensOf(const PinholeCamera* camera) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detection/borders/edge_profiles.hpp"
+#include "window_ingress/geometry/image_border.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -17,11 +18,6 @@ constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must
 constexpr double kMinStretch =
     0.06;  ///< shortest visible part of a side that is tracked [longer image sides]
 constexpr int kViewSteps = 64;
-
-bool isInView(const Vector2d& p, const cv::Size& image, double margin) {
-  return p.x() >= margin && p.y() >= margin && p.x() <= image.width - 1 - margin &&
-         p.y() <= image.height - 1 - margin;
-}
 
 // Clips the stretch to the band between two parallels to an axis.
 bool clip(double from, double span, double low, double high, double& begin, double& end) {
@@ -48,8 +44,8 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
   int best = 0, best_end = -1, run = 0;
   for (int i = 0; i <= kViewSteps; ++i) {
     const Vector2d p = whole.from + i * step;
-    const bool seen =
-        (p - Vector2d(lens.cx, lens.cy)).norm() <= radius && isInView(lens.distort(p), image, margin);
+    const bool seen = (p - Vector2d(lens.cx, lens.cy)).norm() <= radius &&
+                      geometry::isInside(lens.distort(p), image.width, image.height, margin);
     run = seen ? run + 1 : 0;
     if (run > best) best = run, best_end = i;
   }

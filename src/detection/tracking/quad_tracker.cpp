@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "detection/borders/lines.hpp"
+#include "window_ingress/geometry/image_border.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -51,10 +52,8 @@ bool reaches(const FollowedBorder& border, const Vector2d& corner) {
 
 // Distance from the border of the image.
 double marginOf(const cv::Mat& image, const Vector2d& p) {
-  return std::min({p.x(), p.y(), image.cols - 1 - p.x(), image.rows - 1 - p.y()});
+  return geometry::distanceToBorder(p, image.cols, image.rows);
 }
-
-bool shows(const cv::Mat& image, const Vector2d& p) { return marginOf(image, p) >= 0.0; }
 
 // The corner between two borders, if visible.
 std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::PinholeCamera* lens,
@@ -63,7 +62,7 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
   const auto corner = meet(before.line, after.line);
   if (!corner || !reaches(before, corner->point) || !reaches(after, corner->point)) return std::nullopt;
   const LineCorner seen = throughLens(*corner, lens);
-  if (!shows(image, seen.point)) return std::nullopt;
+  if (!(marginOf(image, seen.point) >= 0.0)) return std::nullopt;
   return seen;
 }
 
