@@ -24,7 +24,7 @@ struct Stages {
   cv::Mat image;
   DetectorParams params;
   Preprocess preprocess{params.preprocess};
-  EdgeDetector edges{params.edges};
+  CannyEdges edges{params.edges};
   UndistortionMap lens;
   EdgeChains runs;
   HoughSegments lines{params.lines};

@@ -16,7 +16,7 @@ struct PreprocessParams {
   }
 };
 
-struct EdgeMapParams {
+struct CannyParams {
   double high_quantile = 0.85;  ///< part of all pixels whose gradient is below the upper threshold
   double low_ratio = 0.5;       ///< lower threshold over upper threshold
   double floor = 6.0;           ///< the upper threshold is never below this [grey levels a pixel]
@@ -42,7 +42,7 @@ struct HoughSegmentsParams {
   }
 };
 
-struct ClosingParams {
+struct DilationParams {
   double radius = 0.003;  ///< radius of the dilation, in longer sides of the search level; at least one pixel
 
   template <typename Self, typename Visitor>
@@ -127,9 +127,9 @@ struct TrackParams {
 /// Parameters of all stages in the order of the pipeline.
 struct DetectorParams {
   PreprocessParams preprocess;
-  EdgeMapParams edges;
+  CannyParams edges;
   HoughSegmentsParams lines;
-  ClosingParams closing;
+  DilationParams closing;
   ContourPolygonsParams contours;
   SegmentQuadsParams segment_quads;
   CandidateGatesParams gates;

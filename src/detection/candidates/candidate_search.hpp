@@ -60,7 +60,7 @@ class CandidateSearch {
 
   DetectorParams params_;
   Preprocess preprocess_;
-  EdgeDetector edges_;
+  CannyEdges edges_;
   UndistortionMap undistortion_;
   EdgeChains chains_;
   HoughSegments hough_;

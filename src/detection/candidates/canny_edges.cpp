@@ -75,7 +75,7 @@ void thinRow(const short* above, const short* here, const short* below, const sh
 
 }  // namespace
 
-void EdgeDetector::gradient(const cv::Mat& image) {
+void CannyEdges::gradient(const cv::Mat& image) {
   constexpr int kBorder = cv::BORDER_REPLICATE | cv::BORDER_ISOLATED;
   const bool is_grey = image.channels() == 1;
   cv::Mat &all_dx = is_grey ? map_.dx : all_dx_, &all_dy = is_grey ? map_.dy : all_dy_;
@@ -90,7 +90,7 @@ void EdgeDetector::gradient(const cv::Mat& image) {
 }
 
 // |dx| + |dy| of every pixel.
-void EdgeDetector::measureStrength() {
+void CannyEdges::measureStrength() {
   strength_.create(map_.dx.size(), CV_16SC1);
   for (int y = 0; y < map_.dx.rows; ++y) {
     const short *dx = map_.dx.ptr<short>(y), *dy = map_.dy.ptr<short>(y);
@@ -101,7 +101,7 @@ void EdgeDetector::measureStrength() {
 }
 
 // Threshold below which `high_quantile` of all pixels lie [grey levels per pixel].
-double EdgeDetector::upperThreshold() const {
+double CannyEdges::upperThreshold() const {
   std::array<int, 2048> histogram{};
   int count = 0;
   for (int y = 0; y < strength_.rows; y += kEveryRow) {
@@ -118,7 +118,7 @@ double EdgeDetector::upperThreshold() const {
 
 // Pixels stronger than their two neighbours across the edge: kWeak, or kStrong above the upper threshold.
 // The border of the image holds none.
-void EdgeDetector::thin() {
+void CannyEdges::thin() {
   map_.edges.create(strength_.size(), CV_8UC1);
   map_.edges.setTo(0);
   const auto in_sums = [](double slope) {
@@ -132,7 +132,7 @@ void EdgeDetector::thin() {
 }
 
 // Weak pixels stay if connected to a strong one.
-void EdgeDetector::followStrong() {
+void CannyEdges::followStrong() {
   cv::Mat& edges = map_.edges;
   const auto step = static_cast<std::ptrdiff_t>(edges.step);
   const std::ptrdiff_t around[8] = {-step - 1, -step, -step + 1, -1, 1, step - 1, step, step + 1};
@@ -154,7 +154,7 @@ void EdgeDetector::followStrong() {
   cv::compare(edges, kEdge, edges, cv::CMP_EQ);
 }
 
-const EdgeMap& EdgeDetector::run(const cv::Mat& image) {
+const EdgeMap& CannyEdges::run(const cv::Mat& image) {
   gradient(image);
   measureStrength();
   thin();

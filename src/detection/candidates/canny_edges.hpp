@@ -18,9 +18,9 @@ struct EdgeMap {
 
 /// Canny (P3) with thresholds that adapt to the image. For colour images the gradient is that of the
 /// strongest channel.
-class EdgeDetector {
+class CannyEdges {
  public:
-  explicit EdgeDetector(const EdgeMapParams& params) : params_(params) {}
+  explicit CannyEdges(const CannyParams& params) : params_(params) {}
 
   /// \param image CV_8UC1 or CV_8UC3, not empty. The result stays valid until the next call.
   const EdgeMap& run(const cv::Mat& image);
@@ -32,7 +32,7 @@ class EdgeDetector {
   void thin();
   void followStrong();
 
-  EdgeMapParams params_;
+  CannyParams params_;
   EdgeMap map_;
   cv::Mat all_dx_, all_dy_;  ///< CV_16SC3, per channel
   cv::Mat strength_;         ///< CV_16SC1, |dx| + |dy|

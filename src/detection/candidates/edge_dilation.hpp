@@ -12,7 +12,7 @@ namespace window_ingress::detection {
 /// search.
 class EdgeDilation {
  public:
-  explicit EdgeDilation(const ClosingParams& params) : params_(params) {}
+  explicit EdgeDilation(const DilationParams& params) : params_(params) {}
 
   int radiusPx(const cv::Size& size) const {
     return std::max(1, static_cast<int>(std::lround(params_.radius * std::max(size.width, size.height))));
@@ -27,7 +27,7 @@ class EdgeDilation {
   }
 
  private:
-  ClosingParams params_;
+  DilationParams params_;
   cv::Mat dilated_, kernel_;
 };
 

@@ -92,7 +92,7 @@ cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace,
 
 void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const detection::EdgeMap& map,
               const DetectorParams& params, ContactSheet& sheet) {
-  detection::EdgeDetector plain(params.edges);
+  detection::CannyEdges plain(params.edges);
   sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
   sheet.add(plain.run(image).edges, "P3 edges without preprocessing");
   sheet.add(map.edges,
@@ -101,11 +101,11 @@ void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const d
 
 void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet& sheet) {
   detection::Preprocess preprocess(params.preprocess);
-  detection::EdgeDetector edges(params.edges);
+  detection::CannyEdges edges(params.edges);
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
   detection::UndistortionMap lens;  // no calibration: the image counts as free of distortion
-  detection::EdgeDilation closing(params.closing);
+  detection::EdgeDilation dilation(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);
   const detection::SearchLevel level = preprocess.run(image);
@@ -117,9 +117,9 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
             cv::format("P4 straight segments, colour: direction (%d)", static_cast<int>(segments.size())));
   cv::Mat straight;
   keepOnSegments(runs, lines, level.image.size(), straight);
-  const cv::Mat closed = closing.run(straight);
-  sheet.add(closed, cv::format("P6 closed, %d px", closing.radiusPx(level.image.size())));
-  const auto outlines = contours.run(closed, closing.radiusPx(level.image.size()));
+  const cv::Mat closed = dilation.run(straight);
+  sheet.add(closed, cv::format("P6 closed, %d px", dilation.radiusPx(level.image.size())));
+  const auto outlines = contours.run(closed, dilation.radiusPx(level.image.size()));
   sheet.add(drawOutlines(closed, outlines.candidates),
             cv::format("P7 contours (%d), polygons with four sides (%d)", outlines.contours,
                        static_cast<int>(outlines.candidates.size())));

@@ -34,7 +34,7 @@ void byOpenCv(const cv::Mat& image, cv::Mat& dx, cv::Mat& dy) {
 }
 
 TEST(EdgeMap, GradientIsThatOfTheStrongestChannelWhateverTheSize) {
-  EdgeDetector detector{EdgeMapParams()};
+  CannyEdges detector{CannyParams()};
   unsigned seed = 0;
   for (int type : {CV_8UC1, CV_8UC3})
     for (int rows : {1, 2, 3, 17, 60})
@@ -50,7 +50,7 @@ TEST(EdgeMap, GradientIsThatOfTheStrongestChannelWhateverTheSize) {
 
 TEST(EdgeMap, APartOfALargerImageIsReadRowByRow) {
   const cv::Mat large = noise(50, 90, CV_8UC3, 7), part = large(cv::Rect(10, 5, 33, 20));
-  EdgeDetector detector{EdgeMapParams()};
+  CannyEdges detector{CannyParams()};
   const cv::Mat edges = detector.run(part).edges.clone();
   EXPECT_EQ(cv::norm(detector.run(part.clone()).edges, edges, cv::NORM_INF), 0.0);
 }

@@ -10,7 +10,7 @@
 namespace window_ingress::detection::edge_chains_test {
 
 const std::vector<EdgeChain>& runsOf(EdgeChains& runs, const cv::Mat& image) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   return runs.run(edges.run(image), UndistortionMap());
 }
 

@@ -26,7 +26,7 @@ cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
 }
 
 TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   for (double angle : {0.0, 0.1, 0.35, -0.6, 1.3}) {
     const auto opening = test::turned(test::rectangle(100, 70, 220, 170), angle, 0.1);
     const auto segments = segmentsOf(edges.run(window(opening)));
@@ -46,7 +46,7 @@ TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {
 TEST(HoughSegments, BrighterSideLiesOnTheRight) {
   cv::Mat image(100, 100, CV_8UC1, cv::Scalar(50));
   image(cv::Rect(50, 0, 50, 100)).setTo(200);
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const auto segments = segmentsOf(edges.run(image));
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_GT(segments[0].normal.x(), 0.99);
@@ -56,14 +56,14 @@ TEST(HoughSegments, BrighterSideLiesOnTheRight) {
 TEST(HoughSegments, TheTwoEdgesOfABarStayApart) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(60));
   image(cv::Rect(78, 0, 4, 120)).setTo(200);
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const auto segments = segmentsOf(edges.run(image));
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_LT(segments[0].normal.dot(segments[1].normal), -0.9);
 }
 
 TEST(HoughSegments, NoiseAndEmptyImagesGiveNoLongSegments) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   EXPECT_TRUE(segmentsOf(edges.run(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)))).empty());
   cv::Mat noise(240, 320, CV_8UC1, cv::Scalar(128));
   test::addNoise(noise, 40.0, 3);
@@ -71,7 +71,7 @@ TEST(HoughSegments, NoiseAndEmptyImagesGiveNoLongSegments) {
 }
 
 TEST(HoughSegments, OnlyWhatLiesOnSegmentsIsKept) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   cv::Mat image = window(test::rectangle(90, 60, 200, 170), 0.0);
   cv::circle(image, {270, 40}, 4, cv::Scalar(0), 1);
   const EdgeMap& map = edges.run(image);
@@ -94,7 +94,7 @@ TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
       if (lens.undistort(x, y).x() > 285.0) image.at<uchar>(y, x) = 50;
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
   const auto& segments = lines.run(runs.run(edges.run(image), lens), image.size());
@@ -105,7 +105,7 @@ TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
 }
 
 TEST(HoughSegments, IsDeterministic) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(90, 60, 200, 170), 4.0));
   const auto first = segmentsOf(map), second = segmentsOf(map);
   ASSERT_EQ(first.size(), second.size());
@@ -116,7 +116,7 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
   cv::Mat image = window(test::rectangle(90, 60, 230, 170), 0.0);
   image(cv::Rect(140, 55, 12, 12)).setTo(image.at<uchar>(5, 5));
   image(cv::Rect(84, 54, 12, 12)).setTo(image.at<uchar>(5, 5));
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const auto segments = segmentsOf(edges.run(image));
   SegmentQuads quads{SegmentQuadsParams()};
   const auto result = quads.run(segments, 1000.0, SegmentQuads::kQuick);
@@ -128,7 +128,7 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
 }
 
 TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
   const EdgeMap& map = edges.run(window(opening));
   for (const SideSupport& side : measureSides(map, UndistortionMap(), opening)) {
@@ -145,14 +145,14 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60 + 40 * i, 30}, {60 + 40 * i, 190}, cv::Scalar(20), 2);
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const auto cell = measureSides(edges.run(image), UndistortionMap(), test::rectangle(102, 72, 138, 108));
   const auto grid = measureSides(edges.run(image), UndistortionMap(), test::rectangle(58, 28, 222, 192));
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
 TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
-  EdgeDetector edges{EdgeMapParams()};
+  CannyEdges edges{CannyParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
   for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(-500, -400, 900, 800)))
     EXPECT_EQ(side.fraction, 0.0);

@@ -52,8 +52,8 @@ TEST(Preprocess, EqualisationRaisesContrastAndTakesBothTypes) {
   }
 }
 
-TEST(EdgeDetector, ThresholdsFollowTheContrastOfTheImage) {
-  EdgeDetector detector{EdgeMapParams()};
+TEST(CannyEdges, ThresholdsFollowTheContrastOfTheImage) {
+  CannyEdges detector{CannyParams()};
   for (double contrast : {12.0, 40.0, 120.0}) {
     test::DrawnWindow drawn;
     drawn.opening = test::rectangle(200, 150, 420, 330);
@@ -66,22 +66,22 @@ TEST(EdgeDetector, ThresholdsFollowTheContrastOfTheImage) {
   }
 }
 
-TEST(EdgeDetector, SeesBordersThatDifferInColourOnly) {
+TEST(CannyEdges, SeesBordersThatDifferInColourOnly) {
   cv::Mat image(240, 320, CV_8UC3, cv::Scalar(200, 100, 50));
   test::fillQuad(image, test::rectangle(80, 60, 220, 170), cv::Scalar(60, 100, 190));
-  EdgeDetector detector{EdgeMapParams()};
+  CannyEdges detector{CannyParams()};
   EXPECT_GT(cv::countNonZero(detector.run(image).edges), 400);
 }
 
 TEST(EdgeDilation, ClosesGapsUpToTwiceItsRadius) {
-  ClosingParams params;
+  DilationParams params;
   params.radius = 0.01;
-  EdgeDilation closing(params);
+  EdgeDilation dilation(params);
   cv::Mat edges(200, 200, CV_8UC1, cv::Scalar(0));
-  EXPECT_EQ(closing.radiusPx(edges.size()), 2);
+  EXPECT_EQ(dilation.radiusPx(edges.size()), 2);
   cv::rectangle(edges, {50, 50}, {150, 150}, cv::Scalar(255));
   edges(cv::Rect(90, 50, 4, 1)).setTo(0);
-  cv::Mat filled = closing.run(edges).clone();
+  cv::Mat filled = dilation.run(edges).clone();
   cv::floodFill(filled, {100, 100}, cv::Scalar(255));
   EXPECT_EQ(filled.at<uchar>(0, 0), 0) << "the flood leaked through the gap";
 }
@@ -90,9 +90,9 @@ TEST(ContourPolygons, TakesOffWhatTheClosingAdded) {
   cv::Mat edges(240, 320, CV_8UC1, cv::Scalar(0));
   const auto truth = test::rectangle(60, 50, 220, 170);
   cv::rectangle(edges, {60, 50}, {220, 170}, cv::Scalar(255));
-  EdgeDilation closing{ClosingParams()};
+  EdgeDilation dilation{DilationParams()};
   ContourPolygons contours{ContourPolygonsParams()};
-  const auto result = contours.run(closing.run(edges), closing.radiusPx(edges.size()));
+  const auto result = contours.run(dilation.run(edges), dilation.radiusPx(edges.size()));
   ASSERT_EQ(result.candidates.size(), 2u);
   for (const Candidate& candidate : result.candidates)
     EXPECT_LT(test::worstCorner(candidate.quad, truth), 1.1) << "inner and outer outline are the same edge";
