@@ -21,50 +21,51 @@ constexpr double kWholeRing = 0.9;       ///< correlation above which nothing of
 constexpr int kAllSeen = 4;              ///< all borders are visible
 
 // Correlation of the next best place.
-double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& rivals) {
+double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& candidates) {
   const Sameness same(target.quad);
   double best = 0.0;
-  for (const ScoredCandidate& other : rivals)
+  for (const ScoredCandidate& other : candidates)
     if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
   return best;
 }
 
 }  // namespace
 
-double TargetChoice::leastScore(const ScoredCandidate& rival) const {
-  if (rival.correlation) return params_.min_correlation;
-  return rival.appearance ? params_.min_score_reference : params_.min_score;
+double TargetChoice::leastScore(const ScoredCandidate& candidate) const {
+  if (candidate.correlation) return params_.min_correlation;
+  return candidate.appearance ? params_.min_score_reference : params_.min_score;
 }
 
 // An aligned place must show its borders, because the opening may have been walled up. If all of its
 // surroundings match, it is enough that the inside differs from the wall.
-bool TargetChoice::showsOpening(const ScoredCandidate& rival, const RefinedBorders& found,
+bool TargetChoice::showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found,
                                 const View& view) const {
-  if (!rival.correlation) return true;
-  if (found.seen < reference_.bordersNeeded(rival.match)) return false;
+  if (!candidate.correlation) return true;
+  if (found.seen < reference_.bordersNeeded(candidate.match)) return false;
   return (found.seen >= kFewestSeen && !reference_.frameless()) ||
          reference_.showsOpening(view.image, found.corners, view.camera);
 }
 
-std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) const {
-  if (rival.located && rival.correlation) return reference_.objectionTo(rival.match, rival.appearance);
-  if (rival.appearance)
-    if (const auto refused = reference_.objectionTo(*rival.appearance)) return refused;
-  if (rival.verdict != RejectReason::kNone) return Rejection{rival.verdict, rival.rank(), 0.0};
-  if (const double least = leastScore(rival); rival.score < least)
-    return Rejection{RejectReason::kScore, rival.score, least};
+std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& candidate) const {
+  if (candidate.located && candidate.correlation)
+    return reference_.objectionTo(candidate.match, candidate.appearance);
+  if (candidate.appearance)
+    if (const auto refused = reference_.objectionTo(*candidate.appearance)) return refused;
+  if (candidate.verdict != RejectReason::kNone) return Rejection{candidate.verdict, candidate.rank(), 0.0};
+  if (const double least = leastScore(candidate); candidate.score < least)
+    return Rejection{RejectReason::kScore, candidate.score, least};
   return std::nullopt;
 }
 
-std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival, const View& view,
+std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& candidate, const View& view,
                                                    double& inliers) const {
   BorderStart start;
-  start.quad = rival.quad;
-  const bool is_blob = rival.candidate.source == CandidateSource::kBlob;
+  start.quad = candidate.quad;
+  const bool is_blob = candidate.found.source == CandidateSource::kBlob;
   start.radius_px =
-      rival.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
-  if (rival.located) start.knowAll(kLocatedSigmaPx);
-  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
+      candidate.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
+  if (candidate.located) start.knowAll(kLocatedSigmaPx);
+  if (candidate.correlation) start.max_stray_px = kAlignedStrayPx;
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
@@ -87,17 +88,17 @@ std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrila
 }
 
 // Another window with common features is aligned, too; its borders contradict the alignment.
-std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
+std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& candidate, const View& view,
                                                            RefinedBorders& fitted) {
   const auto ring =
       reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
   ring_there_ = ring ? ring->match.correlation : 0.0;
   if (!ring) {
-    if (reference_.frameTells(view.image, rival.worth)) return std::nullopt;
+    if (reference_.frameTells(view.image, candidate.border_score)) return std::nullopt;
     return Rejection{RejectReason::kUnlike, 0.0, params_.min_correlation};
   }
-  if (!rival.correlation)
-    if (auto fault = reference_.objectionTo(*ring, view.image, rival.appearance)) return fault;
+  if (!candidate.correlation)
+    if (auto fault = reference_.objectionTo(*ring, view.image, candidate.appearance)) return fault;
   const auto anew = fitWhere(*ring, view);
   if (!anew) return std::nullopt;
   const auto agreeing = std::count(anew->fitted.begin(), anew->fitted.end(), true);
@@ -106,16 +107,16 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
 }
 
 // Tests the shape of four visible borders first, because the ring would impose the reference's shape on them.
-std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const View& view,
+std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& candidate, const View& view,
                                            RefinedBorders& fitted) {
   double inliers = 0.0;
-  const auto found = refine(rival, view, inliers);
-  if (!found || !showsOpening(rival, *found, view))
+  const auto found = refine(candidate, view, inliers);
+  if (!found || !showsOpening(candidate, *found, view))
     return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
-  if (rival.correlation && found->seen == kAllSeen)
+  if (candidate.correlation && found->seen == kAllSeen)
     if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
-  if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
+  if (const auto fault = judgeSurroundingsOf(candidate, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
   if (const double inside = geometry::distanceToBorder(fitted.corners, view.image.cols, view.image.rows);
       inside < least)
@@ -135,27 +136,27 @@ void TargetChoice::uncover(const View& view, RefinedBorders& fitted) {
 }
 
 // Chooses the best candidate without an objection whose borders can be fitted.
-std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidate>& rivals, int search_factor,
-                                                      const View& view) {
+std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidate>& candidates,
+                                                      int search_factor, const View& view) {
   search_factor_ = search_factor;
-  sortByRank(rivals);
+  sortByRank(candidates);
   std::optional<WindowObservation> window;
   int tries = 0;
-  for (const ScoredCandidate& rival : rivals) {
-    auto fault = objection(rival);
-    if (!fault && window) fault = Rejection{RejectReason::kOutscored, rival.score, window->score};
+  for (const ScoredCandidate& candidate : candidates) {
+    auto fault = objection(candidate);
+    if (!fault && window) fault = Rejection{RejectReason::kOutscored, candidate.score, window->score};
     if (!fault && ++tries > kRefinementTries)
       fault = Rejection{RejectReason::kBudget, static_cast<double>(tries), kRefinementTries};
     RefinedBorders fitted;
-    if (!fault) fault = fit(rival, view, fitted);
+    if (!fault) fault = fit(candidate, view, fitted);
     if (fault) {
-      record(rival, fault->reason, fault->value, fault->limit);
+      record(candidate, fault->reason, fault->value, fault->limit);
       continue;
     }
     if (trace_.target >= 0) trace_.candidates[trace_.target].reject = RejectReason::kOutscored;
-    record(rival, RejectReason::kNone, rival.score, leastScore(rival));
+    record(candidate, RejectReason::kNone, candidate.score, leastScore(candidate));
     window = observationOf(trace_.candidates.back(), fitted, view.stamp_sec);
-    window->runner_up = runnerUp(rival, rivals);
+    window->runner_up = runnerUp(candidate, candidates);
     trace_.target = static_cast<int>(trace_.candidates.size()) - 1;
     trace_.candidates.back().quad = fitted.corners;
   }

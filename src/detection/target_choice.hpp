@@ -27,8 +27,8 @@ class TargetChoice {
     double stamp_sec;
     const geometry::PinholeCamera* camera;  ///< may be null
   };
-  /// \param rivals are sorted here \param search_factor image pixels per pixel of the search level
-  std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
+  /// \param candidates are sorted here \param search_factor image pixels per pixel of the search level
+  std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& candidates, int search_factor,
                                           const View& view);
 
   /// Correlation of the last chosen window's surroundings with the reference's; 0 if they do not fit.
@@ -42,17 +42,18 @@ class TargetChoice {
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;
 
  private:
-  std::optional<Rejection> objection(const ScoredCandidate& rival) const;
-  std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const View& view, double& inliers) const;
+  std::optional<Rejection> objection(const ScoredCandidate& candidate) const;
+  std::optional<RefinedBorders> refine(const ScoredCandidate& candidate, const View& view,
+                                       double& inliers) const;
   std::optional<RefinedBorders> fitWhere(const AlignedRing& ring, const View& view) const;
-  std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
-  std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
+  std::optional<Rejection> fit(const ScoredCandidate& candidate, const View& view, RefinedBorders& fitted);
+  std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& candidate, const View& view,
                                                RefinedBorders& fitted);
   void uncover(const View& view, RefinedBorders& fitted);
-  bool showsOpening(const ScoredCandidate& rival, const RefinedBorders& found, const View& view) const;
-  double leastScore(const ScoredCandidate& rival) const;
-  void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
-    trace_.candidates.push_back(traceOf(rival, reason, value, limit));
+  bool showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found, const View& view) const;
+  double leastScore(const ScoredCandidate& candidate) const;
+  void record(const ScoredCandidate& candidate, RejectReason reason, double value, double limit) {
+    trace_.candidates.push_back(traceOf(candidate, reason, value, limit));
   }
 
   DetectorParams params_;

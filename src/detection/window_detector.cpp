@@ -53,45 +53,45 @@ struct WindowDetector::Impl {
   ReferenceJudge reference;
   DetectionTrace trace;
   TargetChoice choice;
-  std::vector<ScoredCandidate> found_first, rivals;
+  std::vector<ScoredCandidate> found_first, candidates;
   std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, computed on demand
   StageTimer* watch = nullptr;
 };
 
-// Chooses among the rivals that the reference has judged.
+// Chooses among the candidates that the reference has judged.
 std::optional<WindowObservation> WindowDetector::Impl::choose(const View& view) {
   done(watch, Stage::kReference);
-  auto window = choice.choose(rivals, search.factor(), view);
+  auto window = choice.choose(candidates, search.factor(), view);
   done(watch, Stage::kBorders);
   return window;
 }
 
 std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const View& view) {
-  rivals = search.kept();
-  const bool compared = reference.judgeFrames(view.image, view.camera, rivals);
-  if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), rivals);
+  candidates = search.kept();
+  const bool compared = reference.judgeFrames(view.image, view.camera, candidates);
+  if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), candidates);
   return choose(view);
 }
 
 // Gathers candidates that are windows by their geometry, and those that may be.
 void WindowDetector::Impl::gatherAll() {
-  rivals = search.kept();
+  candidates = search.kept();
   const auto& open = search.open();
-  rivals.insert(rivals.end(), open.begin(), open.end());
+  candidates.insert(candidates.end(), open.begin(), open.end());
 }
 
 // Judges by the frame only: the background of a free-standing gate differs from the reference's.
 std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(const View& view) {
-  rivals = found_first;
-  rivals.insert(rivals.end(), search.kept().begin(), search.kept().end());
-  if (!reference.judgeFrames(view.image, view.camera, rivals)) return std::nullopt;
-  for (ScoredCandidate& rival : rivals)
-    if (!rival.located || !rival.appearance) rival.verdict = RejectReason::kDuplicate;
+  candidates = found_first;
+  candidates.insert(candidates.end(), search.kept().begin(), search.kept().end());
+  if (!reference.judgeFrames(view.image, view.camera, candidates)) return std::nullopt;
+  for (ScoredCandidate& candidate : candidates)
+    if (!candidate.located || !candidate.appearance) candidate.verdict = RejectReason::kDuplicate;
   return choose(view);
 }
 
 std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(const View& view) {
-  if (!reference.judgeSurroundings(view.image, view.camera, rivals)) return std::nullopt;
+  if (!reference.judgeSurroundings(view.image, view.camera, candidates)) return std::nullopt;
   return choose(view);
 }
 
@@ -109,14 +109,14 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
   };
   if (agreement < kSureRing) gatherAll(), ask_surroundings();
   if (!window && !everywhere)
-    rivals = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
+    candidates = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
   return window;
 }
 
 // Searches once more as if something stood before the window.
 std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& view) {
   gatherAll();
-  if (everywhere) rivals.insert(rivals.end(), everywhere->begin(), everywhere->end());
+  if (everywhere) candidates.insert(candidates.end(), everywhere->begin(), everywhere->end());
   const struct Cover {
     explicit Cover(ReferenceJudge& judge) : judge(judge) { judge.setCovered(true); }
     ~Cover() { judge.setCovered(false); }

@@ -22,21 +22,21 @@ constexpr double kPale = 0.8,
                  kUnsharp = 1.25;        ///< contrast when unsharp; its gain at half the resolution
 constexpr double kProposalWeight = 0.3;  ///< of the geometry score, while a comparison says little
 
-void sortByScore(std::vector<ScoredCandidate>& rivals) {
-  std::stable_sort(rivals.begin(), rivals.end(),
+void sortByScore(std::vector<ScoredCandidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
                    [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.score > b.score; });
 }
 
 }  // namespace
 
-// Orders the rivals, the most promising first.
-void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
+// Orders the candidates, the most promising first.
+void RingMatcher::compareAll(std::vector<ScoredCandidate>& candidates) {
   order_.clear();
-  for (std::size_t i = 0; i < rivals.size(); ++i) {
-    const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
-    rivals[i].correlation = std::max(0.0, match.correlation);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const RingMatch match = alignment_.compare(candidates[i].quad, kComparedPx);
+    candidates[i].correlation = std::max(0.0, match.correlation);
     if (match.correlation > (covered_ ? kHopeless : -1.0))
-      order_.emplace_back(match.correlation + kProposalWeight * rivals[i].score, i);
+      order_.emplace_back(match.correlation + kProposalWeight * candidates[i].score, i);
   }
   std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
     return a.first > b.first || (a.first == b.first && a.second < b.second);
@@ -44,16 +44,16 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
 }
 
 std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image, bool leaning) {
-  std::vector<ScoredCandidate> rivals;
-  if (!compares(image)) return rivals;
+  std::vector<ScoredCandidate> candidates;
+  if (!compares(image)) return candidates;
   for (const RingSearch::Place& place : search_.run(image, kPlacesSearched, leaning)) {
-    ScoredCandidate rival;
-    rival.quad = place.quad;
-    rival.candidate.source = CandidateSource::kReference;
-    rival.score = place.correlation;
-    rivals.push_back(rival);
+    ScoredCandidate candidate;
+    candidate.quad = place.quad;
+    candidate.found.source = CandidateSource::kReference;
+    candidate.score = place.correlation;
+    candidates.push_back(candidate);
   }
-  return rivals;
+  return candidates;
 }
 
 std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough, double finest_px) {
@@ -61,17 +61,17 @@ std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough
   if (!found) return std::nullopt;
   const auto quad = geometry::canonical(found->quad);
   if (!quad) return std::nullopt;
-  ScoredCandidate rival = rough;
-  rival.quad = *quad;
-  rival.candidate.source = CandidateSource::kReference;
-  rival.verdict = RejectReason::kNone;
-  rival.proposal = 0.0;
-  rival.located = true;
-  rival.size = 1.0;
-  rival.match = alignment_.judge(rival.quad, finest_px);
-  rival.correlation = std::max(0.0, rival.match.correlation);
-  rival.score = 0.5 * (*rival.correlation + std::max(0.0, rival.match.faithful_uncovered));
-  return rival;
+  ScoredCandidate candidate = rough;
+  candidate.quad = *quad;
+  candidate.found.source = CandidateSource::kReference;
+  candidate.verdict = RejectReason::kNone;
+  candidate.proposal = 0.0;
+  candidate.located = true;
+  candidate.size = 1.0;
+  candidate.match = alignment_.judge(candidate.quad, finest_px);
+  candidate.correlation = std::max(0.0, candidate.match.correlation);
+  candidate.score = 0.5 * (*candidate.correlation + std::max(0.0, candidate.match.faithful_uncovered));
+  return candidate;
 }
 
 // An image less sharp than the reference shows less contrast; at half the resolution it shows more.
@@ -84,15 +84,15 @@ RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   return match;
 }
 
-// Keeps the best of all rivals that end at one place.
-void RingMatcher::keep(const ScoredCandidate& rival) {
+// Keeps the best of all candidates that end at one place.
+void RingMatcher::keep(const ScoredCandidate& candidate) {
   const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& kept) {
-    return Sameness(kept.quad).samePlace(rival.quad);
+    return Sameness(kept.quad).samePlace(candidate.quad);
   });
   if (same == aligned_.end())
-    aligned_.push_back(rival);
-  else if (rival.score > same->score)
-    *same = rival;
+    aligned_.push_back(candidate);
+  else if (candidate.score > same->score)
+    *same = candidate;
 }
 
 std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -111,31 +111,31 @@ std::optional<AlignedRing> RingMatcher::uncovered(const cv::Mat& image, const ge
 
 const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,
                                                        const geometry::PinholeCamera* camera,
-                                                       std::vector<ScoredCandidate>& rivals) {
+                                                       std::vector<ScoredCandidate>& candidates) {
   aligned_.clear();
   if (!compares(image)) return aligned_;
   alignment_.set(model_, image, camera, covered_);
-  compareAll(rivals);
+  compareAll(candidates);
   std::vector<std::size_t> places;
   struct {
     double score = 0.0, promise = 0.0;
   } best;
   for (const auto& [promise, i] : order_) {
     if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
-    const geometry::Quadrilateral& newcomer = rivals[i].quad;
+    const geometry::Quadrilateral& newcomer = candidates[i].quad;
     const auto variants = std::count_if(places.begin(), places.end(), [&](std::size_t place) {
-      return Sameness(rivals[place].quad).samePlace(newcomer);
+      return Sameness(candidates[place].quad).samePlace(newcomer);
     });
     if (variants >= kVariants) continue;
     places.push_back(i);
-    const auto rival = aligned(rivals[i], kAlignedPx);
-    if (!rival) continue;
-    if (rival->score > best.score) best = {rival->score, promise};
-    keep(*rival);
+    const auto candidate = aligned(candidates[i], kAlignedPx);
+    if (!candidate) continue;
+    if (candidate->score > best.score) best = {candidate->score, promise};
+    keep(*candidate);
   }
   sortByScore(aligned_);
   for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
-    if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
+    if (const auto candidate = aligned(aligned_[i], kFinestPx)) aligned_[i] = *candidate;
   sortByScore(aligned_);
   return aligned_;
 }

@@ -8,8 +8,8 @@
 
 namespace window_ingress::detection {
 
-/// Finds the rivals whose surroundings match the reference's, and their exact position: compares all rivals,
-/// then moves the best to where the ring fits best.
+/// Finds the candidates whose surroundings match the reference's, and their exact position: compares all
+/// candidates, then moves the best to where the ring fits best.
 class RingMatcher {
  public:
   /// First resolution of an alignment [px per mean side]: for borders from a search, which may be off by some
@@ -31,10 +31,10 @@ class RingMatcher {
   /// Sets whether something stands before the ring. See RingAlignment.
   void setCovered(bool covered) { covered_ = covered; }
 
-  /// Aligned rivals, best first, each place once; the score combines the correlations. Valid until the next
-  /// call. Stores the correlation of every rival before its alignment. \param image CV_8UC3
+  /// Aligned candidates, best first, each place once; the score combines the correlations. Valid until the
+  /// next call. Stores the correlation of every candidate before its alignment. \param image CV_8UC3
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                            std::vector<ScoredCandidate>& rivals);
+                                            std::vector<ScoredCandidate>& candidates);
 
   /// Places where the ring may be, found without edges, see RingSearch. \param image CV_8UC3
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image, bool leaning = true);
@@ -56,14 +56,15 @@ class RingMatcher {
  private:
   bool compares(const cv::Mat& image) const { return known() && image.channels() == kRingChannels; }
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
-  void keep(const ScoredCandidate& rival);
-  void compareAll(std::vector<ScoredCandidate>& rivals);
+  void keep(const ScoredCandidate& candidate);
+  void compareAll(std::vector<ScoredCandidate>& candidates);
 
   RingModel model_;
   RingAlignment alignment_;
   RingSearch search_;
   bool covered_ = false;
-  std::vector<std::pair<double, std::size_t>> order_;  ///< correlation before alignment, index into `rivals`
+  std::vector<std::pair<double, std::size_t>>
+      order_;  ///< correlation before alignment, index into `candidates`
   std::vector<ScoredCandidate> aligned_;
 };
 

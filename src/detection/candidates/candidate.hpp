@@ -33,7 +33,7 @@ struct Candidate {
 
 /// A candidate that passed the gates on single candidates, with its scores.
 struct ScoredCandidate {
-  Candidate candidate;
+  Candidate found;               ///< as the search found it
   geometry::Quadrilateral quad;  ///< raw pixels
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
@@ -45,15 +45,15 @@ struct ScoredCandidate {
   std::optional<double> correlation;          ///< with the reference's surroundings, if aligned
   RingMatch match;                            ///< fine comparison of the aligned place
   double geometry = 0.0;                      ///< if located: score by geometry alone
-  double worth = 0.0;  ///< if located: how well colours about its borders match the reference, 0 to 1
+  double border_score = 0.0;  ///< if located: how well colours about its borders match the reference, 0 to 1
 
   double rank() const { return score * size; }
 };
 
 /// Higher rank first; deterministic.
-void sortByRank(std::vector<ScoredCandidate>& rivals);
+void sortByRank(std::vector<ScoredCandidate>& candidates);
 
-/// One line of the trace for a rival.
-CandidateTrace traceOf(const ScoredCandidate& rival, RejectReason reason, double value, double limit);
+/// One line of the trace for a candidate.
+CandidateTrace traceOf(const ScoredCandidate& candidate, RejectReason reason, double value, double limit);
 
 }  // namespace window_ingress::detection

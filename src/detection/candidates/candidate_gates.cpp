@@ -8,13 +8,13 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kSupportLow = 0.4;       ///< support of a side that counts as none
-constexpr double kOvershootWeight = 1.0;  ///< exponent of one minus the overshoot
-constexpr double kAreaFull = 0.06;        ///< area above which size does not affect the rank [image areas]
-constexpr double kAreaWeight = 0.45;      ///< exponent of the area's part in the rank
-constexpr double kClosureWeight = 0.5;    ///< exponent of the closure's part
-constexpr double kGeometryWeight = 0.25;  ///< exponent of the geometry score if there is a reference
-constexpr double kWorthWeight = 0.7;      ///< exponent of the borders' worth, see ReferenceBorders
+constexpr double kSupportLow = 0.4;         ///< support of a side that counts as none
+constexpr double kOvershootWeight = 1.0;    ///< exponent of one minus the overshoot
+constexpr double kAreaFull = 0.06;          ///< area above which size does not affect the rank [image areas]
+constexpr double kAreaWeight = 0.45;        ///< exponent of the area's part in the rank
+constexpr double kClosureWeight = 0.5;      ///< exponent of the closure's part
+constexpr double kGeometryWeight = 0.25;    ///< exponent of the geometry score if there is a reference
+constexpr double kBorderScoreWeight = 0.7;  ///< exponent of the borders' score, see ReferenceBorders
 constexpr double kBorderPart =
     0.003;  ///< a corner this close to the image's border is cut off [longer image sides]
 constexpr double kMeanSideSupport = 0.7;  ///< least mean support of the four sides
@@ -76,8 +76,8 @@ double windowScore(const Candidate& candidate) {
          std::pow(1.0 - overshoot, kOvershootWeight);
 }
 
-double scoreWithReference(double geometry, double worth) {
-  return std::pow(geometry, kGeometryWeight) * std::pow(worth, kWorthWeight);
+double scoreWithReference(double geometry, double border_score) {
+  return std::pow(geometry, kGeometryWeight) * std::pow(border_score, kBorderScoreWeight);
 }
 
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image) {

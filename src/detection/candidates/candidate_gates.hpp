@@ -28,9 +28,9 @@ std::optional<Rejection> supportFault(const Candidate& candidate, const Candidat
 /// Independent of its size.
 double windowScore(const Candidate& candidate);
 
-/// Score where the reference's borders were searched; their worth counts most.
-/// \param worth of its borders, see ReferenceBorders
-double scoreWithReference(double geometry, double worth);
+/// Score where the reference's borders were searched; their score counts most.
+/// \param border_score of its borders, see ReferenceBorders
+double scoreWithReference(double geometry, double border_score);
 
 /// Factor that prefers larger candidates, up to 1.
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image);

@@ -121,55 +121,57 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
 const std::vector<ScoredCandidate>& CandidateSearch::open() {
   open_.clear();
   for (const Quadrilateral& quad : segment_quads_.open(*segments_)) {
-    ScoredCandidate rival;
-    rival.candidate.quad = quad;
-    rival.candidate.source = CandidateSource::kSegments;
-    for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = undistortion_.distort(quad[i]);
-    if (shapeFault(rival.candidate, level_size_, params_.gates)) continue;
-    rival.quad = inFullImage(rival.candidate.seen, factor_);
-    rival.score = kOpenScore;
-    open_.push_back(rival);
+    ScoredCandidate candidate;
+    candidate.found.quad = quad;
+    candidate.found.source = CandidateSource::kSegments;
+    for (int i = 0; i < 4; ++i) candidate.found.seen[i] = undistortion_.distort(quad[i]);
+    if (shapeFault(candidate.found, level_size_, params_.gates)) continue;
+    candidate.quad = inFullImage(candidate.found.seen, factor_);
+    candidate.score = kOpenScore;
+    open_.push_back(candidate);
   }
   return open_;
 }
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
   for (const Candidate& one : found) {
-    ScoredCandidate rival;
-    rival.candidate = one;
-    Candidate& candidate = rival.candidate;
+    ScoredCandidate scored;
+    scored.found = one;
+    Candidate& candidate = scored.found;
     for (int i = 0; i < 4; ++i) candidate.seen[i] = undistortion_.distort(candidate.quad[i]);
     auto rejection = shapeFault(candidate, level_size_, params_.gates);
     if (!rejection) {
       addEdges(measureSides(*map_, undistortion_, candidate.quad), candidate.sides);
       rejection = supportFault(candidate, params_.gates);
     }
-    rival.quad = inFullImage(candidate.seen, factor_);
+    scored.quad = inFullImage(candidate.seen, factor_);
     if (rejection) {
-      trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
+      trace.candidates.push_back(traceOf(scored, rejection->reason, rejection->value, rejection->limit));
       continue;
     }
-    rival.score = windowScore(candidate);
-    rival.size = sizeRank(candidate.quad, level_size_);
-    rival.proposal = rival.rank();
-    admitted_.push_back(rival);
+    scored.score = windowScore(candidate);
+    scored.size = sizeRank(candidate.quad, level_size_);
+    scored.proposal = scored.rank();
+    admitted_.push_back(scored);
   }
 }
 
 void CandidateSearch::keepBest(DetectionTrace& trace) {
   sortByRank(admitted_);
   kept_.clear();
-  for (const ScoredCandidate& rival : admitted_) {
-    const Sameness same(rival.candidate.quad);
+  for (const ScoredCandidate& candidate : admitted_) {
+    const Sameness same(candidate.found.quad);
     const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const ScoredCandidate& better) {
-      return same.sameQuad(better.candidate.quad);
+      return same.sameQuad(better.found.quad);
     });
     if (twin != kept_.end()) {
-      trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
+      trace.candidates.push_back(
+          traceOf(candidate, RejectReason::kDuplicate, candidate.rank(), twin->rank()));
     } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {
-      trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
+      trace.candidates.push_back(
+          traceOf(candidate, RejectReason::kOutscored, candidate.rank(), kept_.back().rank()));
     } else {
-      kept_.push_back(rival);
+      kept_.push_back(candidate);
     }
   }
 }

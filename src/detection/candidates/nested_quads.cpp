@@ -86,43 +86,44 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
          most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
-void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals) {
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& candidates) {
   const double tolerance_px = kLoopTolerancePx * factor;
-  std::vector<int> order(rivals.size()), inner_border(rivals.size(), -1);
+  std::vector<int> order(candidates.size()), inner_border(candidates.size(), -1);
   std::vector<double> areas;
-  for (const ScoredCandidate& rival : rivals) areas.push_back(std::abs(geometry::signedArea(rival.quad)));
+  for (const ScoredCandidate& candidate : candidates)
+    areas.push_back(std::abs(geometry::signedArea(candidate.quad)));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return areas[a] > areas[b]; });
 
   for (std::size_t a = 0; a < order.size(); ++a) {
     const int outer = order[a];
-    if (rivals[outer].verdict != RejectReason::kNone) continue;
+    if (candidates[outer].verdict != RejectReason::kNone) continue;
     int front = outer;
     cv::Vec3d paint;
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       const int inner = order[b];
-      if (rivals[inner].verdict != RejectReason::kNone) continue;
-      const Quadrilateral &front_quad = rivals[front].quad, &inner_quad = rivals[inner].quad;
+      if (candidates[inner].verdict != RejectReason::kNone) continue;
+      const Quadrilateral &front_quad = candidates[front].quad, &inner_quad = candidates[inner].quad;
       if (!isWithin(front_quad, inner_quad, tolerance_px)) continue;
       if (isConcentric(front_quad, inner_quad, tolerance_px)) {
         const RingBetween ring = ringBetween(image, front_quad, inner_quad);
         if (front == outer) paint = ring.colour;
         if (ring.spread < kUniform && cv::norm(ring.colour - paint) < kContinued) {
-          rivals[front].verdict = RejectReason::kOuterBorder;
+          candidates[front].verdict = RejectReason::kOuterBorder;
           inner_border[front] = inner;
           front = inner;
           continue;
         }
       }
-      if (areas[front] <= kMaxPanes * areas[inner] && rivals[front].rank() >= rivals[inner].rank())
-        rivals[inner].verdict = RejectReason::kPane;
+      if (areas[front] <= kMaxPanes * areas[inner] && candidates[front].rank() >= candidates[inner].rank())
+        candidates[inner].verdict = RejectReason::kPane;
     }
   }
   // Both borders belong to one frame, so the inner border gets at least the outer one's score.
-  for (std::size_t i = 0; i < rivals.size(); ++i)
+  for (std::size_t i = 0; i < candidates.size(); ++i)
     if (inner_border[i] >= 0) {
-      ScoredCandidate& inner = rivals[inner_border[i]];
-      inner.score = std::max(inner.score, rivals[i].score);
+      ScoredCandidate& inner = candidates[inner_border[i]];
+      inner.score = std::max(inner.score, candidates[i].score);
     }
 }
 

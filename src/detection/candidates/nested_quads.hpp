@@ -17,6 +17,6 @@ bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrila
 /// between is uniform. The four sides of a frame are uniform (same plane, same paint), those of a reveal are
 /// not. Without a uniform ring there is no frame, and the outermost loop is the opening's front. A loop that
 /// holds panes wins over each of them. \param factor image pixels per pixel of the search level
-void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals);
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& candidates);
 
 }  // namespace window_ingress::detection

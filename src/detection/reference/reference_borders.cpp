@@ -17,7 +17,7 @@ using geometry::Quadrilateral;
 constexpr double kBorderInward =
     0.14;  ///< borders are searched this far inside a rough loop [its mean sides]
 constexpr double kBorderOutward = 0.40;  ///< borders are searched this far outside it [its mean sides]
-constexpr double kUnlikeScale = 0.10;    ///< colour difference that reduces a border's worth by a factor of e
+constexpr double kUnlikeScale = 0.10;    ///< colour difference that reduces a border's score by a factor of e
 constexpr double kContrastFull = 10.0;   ///< least change of the mean colour at a frame's end [grey levels]
 constexpr double kStepFull = 0.06;       ///< colour difference across a border that counts fully
 constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness against chroma
@@ -26,12 +26,12 @@ constexpr double kFaintestFrame =
     0.10;                           ///< least difference of frame and wall; bricks and joints differ by 0.08
 constexpr double kEndReach = 0.03;  ///< search range about the expected end of a frame [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change nearby, which the place itself must show
-constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
+constexpr double kWithoutEnd = 0.35;  ///< score of a border whose frame does not end there
 constexpr float kHazeFrom = 40.0F;    ///< haze is possible if the darkest place is brighter [grey levels]
 constexpr double kNoHaze = 1e3;
 constexpr double kFarAway = 1.5;   ///< standard deviation of a border from the rough loop [kBorderInward]
 constexpr double kSureEnd = 0.95;  ///< match of a frame's end that predicts the border without an edge
-constexpr double kForetold = 0.8;  ///< worth of a border predicted by its frame's end
+constexpr double kForetold = 0.8;  ///< score of a border predicted by its frame's end
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
 constexpr double kMinChange = 3.0;        ///< least change of the mean colour at a border [grey levels]
 
@@ -125,7 +125,7 @@ double ReferenceBorders::frameEnds(int side, double border) const {
          (1.0 - kWithoutEnd) * (near > kMinChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
 
-// The edge whose outward colours best match the reference while the colour inside differs; returns its worth.
+// The edge whose outward colours best match the reference while the colour inside differs; returns its score.
 double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const int count = static_cast<int>(profile.means.size());
@@ -150,8 +150,8 @@ double ReferenceBorders::choose(int side, double& border) const {
     // Where the frame's end gives the position, a faint border suffices.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kBorderInward / kFarAway;
-    const double worth = std::exp(-off / kUnlikeScale - 0.5 * away * away) * visible;
-    if (worth > best) best = worth, border = at;
+    const double border_score = std::exp(-off / kUnlikeScale - 0.5 * away * away) * visible;
+    if (border_score > best) best = border_score, border = at;
   }
   return best;
 }
@@ -169,13 +169,13 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
     for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());
   std::array<double, 4> borders{};
   Located located;
-  double least = 1.0, mean_worth = 0.0;
+  double least = 1.0, mean_score = 0.0;
   for (int i = 0; i < 4; ++i) {
-    const double worth = choose(i, borders[i]);
-    if (worth <= 0.0) return std::nullopt;
-    least = std::min(least, worth), mean_worth += 0.25 * worth;
+    const double border_score = choose(i, borders[i]);
+    if (border_score <= 0.0) return std::nullopt;
+    least = std::min(least, border_score), mean_score += 0.25 * border_score;
   }
-  located.worth = std::sqrt(least * mean_worth);
+  located.border_score = std::sqrt(least * mean_score);
   for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
   const geometry::UnitSquare map(ideal);

@@ -20,7 +20,7 @@ class ReferenceBorders {
   static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
-  static constexpr double kSureWorth = 0.3;  ///< worth of borders that surely match the reference
+  static constexpr double kSureBorderScore = 0.3;  ///< score of borders that surely match the reference
 
   /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
@@ -38,7 +38,7 @@ class ReferenceBorders {
 
   struct Located {
     geometry::Quadrilateral quad;  ///< raw pixels; sides accurate to about two pixels, a start for the fit
-    double worth = 0.0;            ///< geometric mean of the worst side's and the mean worth, 0 to 1
+    double border_score = 0.0;     ///< geometric mean of the worst side's and the mean score, 0 to 1
   };
   /// \param rough quadrilateral of the window, raw pixels
   /// \return nothing if there is no colour, or a side has no edge at all

@@ -41,11 +41,12 @@ double updated(double score, double odds) {
 }
 
 // Keeps the likeliest loops at each place; the others are variants of them.
-void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::size_t>& places) {
+void choosePlaces(const std::vector<ScoredCandidate>& candidates, std::vector<std::size_t>& places) {
   places.clear();
-  for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
+  for (std::size_t i = 0; i < candidates.size() && places.size() < kPlacesLocated; ++i) {
     int variants = 0;
-    for (std::size_t place : places) variants += Sameness(rivals[place].quad).samePlace(rivals[i].quad);
+    for (std::size_t place : places)
+      variants += Sameness(candidates[place].quad).samePlace(candidates[i].quad);
     if (variants < kVariantsLocated) places.push_back(i);
   }
 }
@@ -81,59 +82,63 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), 1);
 }
 
-// The rival with its borders moved to the reference's, if they are found near it.
+// The candidate with its borders moved to the reference's, if they are found near it.
 std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
                                                       const geometry::PinholeCamera* camera,
                                                       const ScoredCandidate& rough,
                                                       const ReferenceBorders::Effort& effort) {
   const auto found = borders_.locate(image, rough.quad, camera, effort);
   if (!found) return std::nullopt;
-  ScoredCandidate rival = rough;
-  rival.quad = found->quad;
-  rival.candidate.source = CandidateSource::kReference;
-  rival.proposal = 0.0;
-  rival.located = true;
-  rival.worth = found->worth;
-  rival.geometry = rough.located ? rough.geometry : rough.score;
-  rival.score = scoreWithReference(rival.geometry, rival.worth);
-  rival.verdict = RejectReason::kNone;
-  return rival;
+  ScoredCandidate candidate = rough;
+  candidate.quad = found->quad;
+  candidate.found.source = CandidateSource::kReference;
+  candidate.proposal = 0.0;
+  candidate.located = true;
+  candidate.border_score = found->border_score;
+  candidate.geometry = rough.located ? rough.geometry : rough.score;
+  candidate.score = scoreWithReference(candidate.geometry, candidate.border_score);
+  candidate.verdict = RejectReason::kNone;
+  return candidate;
 }
 
 // Finds the reference's borders at all places, and searches the best ones finely.
 void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                               const std::vector<ScoredCandidate>& rivals) {
+                               const std::vector<ScoredCandidate>& candidates) {
   located_.clear();
-  choosePlaces(rivals, places_);
+  choosePlaces(candidates, places_);
   for (std::size_t i : places_)
-    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located_.push_back(*rival);
+    if (auto candidate = locate(image, camera, candidates[i], ReferenceBorders::kCoarse))
+      located_.push_back(*candidate);
   sortByRank(located_);
   for (std::size_t i = 0; i < std::min(located_.size(), kPlacesFine); ++i)
-    if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
+    if (auto candidate = locate(image, camera, located_[i], ReferenceBorders::kFine))
+      located_[i] = *candidate;
 }
 
-// Compares the rivals' frames with the reference's; false if none can be compared.
-bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
+// Compares the candidates' frames with the reference's; false if none can be compared.
+bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const {
   bool any = false;
-  for (ScoredCandidate& rival : rivals) {
-    rival.appearance = reference_->compare(image, rival.quad, appearance_);
-    any = any || rival.appearance;
-    if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
+  for (ScoredCandidate& candidate : candidates) {
+    candidate.appearance = reference_->compare(image, candidate.quad, appearance_);
+    any = any || candidate.appearance;
+    if (candidate.appearance) candidate.score = updated(candidate.score, candidate.appearance->odds);
   }
   return any;
 }
 
 // Lowers the score of loops whose borders were not located. Drops those where borders were surely located.
-void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
-  for (ScoredCandidate& rival : rivals) {
+void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const {
+  for (ScoredCandidate& candidate : candidates) {
     const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
-      return place.worth > ReferenceBorders::kSureWorth && Sameness(place.quad).samePlace(rival.quad);
+      return place.border_score > ReferenceBorders::kSureBorderScore &&
+             Sameness(place.quad).samePlace(candidate.quad);
     });
-    rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
+    candidate.appearance = sure ? std::nullopt : reference_->compare(image, candidate.quad, appearance_);
     if (sure)
-      rival.verdict = RejectReason::kDuplicate;
+      candidate.verdict = RejectReason::kDuplicate;
     else
-      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance ? rival.appearance->odds : 1.0);
+      candidate.score =
+          updated(kUnlocatedPart * candidate.score, candidate.appearance ? candidate.appearance->odds : 1.0);
   }
 }
 
@@ -144,24 +149,24 @@ std::optional<Eigen::Vector3f> ReferenceJudge::paint() const {
 bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
 
 bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                 std::vector<ScoredCandidate>& rivals) {
+                                 std::vector<ScoredCandidate>& candidates) {
   if (!compares(image)) return false;
-  if (!borders_.known()) return weigh(image, rivals);
-  locateAll(inChannels(image), camera, rivals);
+  if (!borders_.known()) return weigh(image, candidates);
+  locateAll(inChannels(image), camera, candidates);
   weigh(image, located_);
-  weighOthers(image, rivals);
-  rivals.insert(rivals.end(), located_.begin(), located_.end());
+  weighOthers(image, candidates);
+  candidates.insert(candidates.end(), located_.begin(), located_.end());
   return true;
 }
 
 bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       std::vector<ScoredCandidate>& rivals) {
+                                       std::vector<ScoredCandidate>& candidates) {
   if (!knowsSurroundings(image)) return false;
-  located_ = ring_.align(inChannels(image), camera, rivals);
-  for (ScoredCandidate& rival : located_)
-    rival.appearance = reference_->compare(image, rival.quad, appearance_);
-  for (ScoredCandidate& rival : rivals) rival.verdict = RejectReason::kDuplicate;
-  rivals.insert(rivals.end(), located_.begin(), located_.end());
+  located_ = ring_.align(inChannels(image), camera, candidates);
+  for (ScoredCandidate& candidate : located_)
+    candidate.appearance = reference_->compare(image, candidate.quad, appearance_);
+  for (ScoredCandidate& candidate : candidates) candidate.verdict = RejectReason::kDuplicate;
+  candidates.insert(candidates.end(), located_.begin(), located_.end());
   return true;
 }
 
@@ -198,8 +203,8 @@ bool ReferenceJudge::hasOwnFrame() const {
   return reference_ && !frameless() && reference_->isDistinct(appearance_);
 }
 
-bool ReferenceJudge::frameTells(const cv::Mat& image, double worth) const {
-  return !knowsSurroundings(image) || (hasOwnFrame() && worth > ReferenceBorders::kSureWorth);
+bool ReferenceJudge::frameTells(const cv::Mat& image, double border_score) const {
+  return !knowsSurroundings(image) || (hasOwnFrame() && border_score > ReferenceBorders::kSureBorderScore);
 }
 
 // A frame's own colours tell the frame from one in another paint, which correlates as well.

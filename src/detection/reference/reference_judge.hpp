@@ -18,7 +18,7 @@
 
 namespace window_ingress::detection {
 
-/// Judges which rival is the target in the reference image (P9), by its borders, colours and shape.
+/// Judges which candidate is the target in the reference image (P9), by its borders, colours and shape.
 class ReferenceJudge {
  public:
   explicit ReferenceJudge(const DetectorParams& params);
@@ -27,7 +27,7 @@ class ReferenceJudge {
   void learn(std::shared_ptr<const ReferenceAppearance> reference);
   const std::shared_ptr<const ReferenceAppearance>& reference() const { return reference_; }
 
-  /// True if rivals can be compared by the colours about their borders.
+  /// True if candidates can be compared by the colours about their borders.
   bool knowsBorders() const { return borders_.known(); }
 
   /// True if the reference shows no frame.
@@ -42,26 +42,27 @@ class ReferenceJudge {
   /// False without a reference, or if only one of reference and image has colour.
   bool compares(const cv::Mat& image) const;
 
-  /// Weighs the rivals by their frames and adds rivals with located borders. Returns false, and changes
-  /// nothing, if they cannot be compared.
+  /// Weighs the candidates by their frames and adds candidates with located borders. Returns false, and
+  /// changes nothing, if they cannot be compared.
   bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                   std::vector<ScoredCandidate>& rivals);
+                   std::vector<ScoredCandidate>& candidates);
 
-  /// Adds the places whose surroundings match the reference's; no other rival may be the target then. Returns
-  /// false, and changes nothing, if they cannot be compared.
+  /// Adds the places whose surroundings match the reference's; no other candidate may be the target then.
+  /// Returns false, and changes nothing, if they cannot be compared.
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                         std::vector<ScoredCandidate>& rivals);
+                         std::vector<ScoredCandidate>& candidates);
 
   /// Sets whether something stands before the opening's surroundings.
   void setCovered(bool covered) { covered_ = covered, ring_.setCovered(covered); }
 
-  /// Rivals for `judgeSurroundings` from the whole image, found without edges; none if it cannot be compared.
+  /// Candidates for `judgeSurroundings` from the whole image, found without edges; none if it cannot be
+  /// compared.
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
 
   /// True if the frame's colours alone may identify the target, whatever its surroundings. Its colours must
   /// occur nowhere else in the reference, and its borders must surely match; or nothing else is known.
-  /// \param worth of the borders, see ScoredCandidate
-  bool frameTells(const cv::Mat& image, double worth) const;
+  /// \param border_score of the borders, see ScoredCandidate
+  bool frameTells(const cv::Mat& image, double border_score) const;
 
   /// Number of borders that must be visible with this match: fewer for a match that is harder to mistake.
   int bordersNeeded(const RingMatch& match) const;
@@ -115,9 +116,9 @@ class ReferenceJudge {
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                 const std::vector<ScoredCandidate>& rivals);
-  bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
-  void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
+                 const std::vector<ScoredCandidate>& candidates);
+  bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const;
+  void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const;
 
   AppearanceParams appearance_;
   double min_correlation_;
@@ -132,7 +133,7 @@ class ReferenceJudge {
   bool is_grey_ = false;  ///< the reference is grey: only brightness counts
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;
-  std::vector<std::size_t> places_;  ///< indices of the rivals to locate
+  std::vector<std::size_t> places_;  ///< indices of the candidates to locate
   std::vector<ScoredCandidate> located_;
 };
 

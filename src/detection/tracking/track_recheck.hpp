@@ -62,9 +62,11 @@ class TrackRecheck {
       return false;
     }
     if (confirmed_ && off > kSameSpot * size) return false;
-    const Quadrilateral rival = relativeTo(followed, *searched);
-    against_ = against_ > 0 && geometry::furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
-    rival_ = rival;
+    const Quadrilateral competitor = relativeTo(followed, *searched);
+    against_ = against_ > 0 && geometry::furthestCorner(competitor, competitor_) < kSameCompetitor
+                   ? against_ + 1
+                   : 1;
+    competitor_ = competitor;
     if (against_ < params_.confirmations) return false;
     restart();
     return true;
@@ -75,9 +77,9 @@ class TrackRecheck {
  private:
   // Corners of one window agree within the larger of these [px], [sizes].
   static constexpr double kAgreePx = 2.5, kAgreePart = 0.02;
-  static constexpr double kSameRival = 0.08;  // corners of one rival in two images [sizes]
-  static constexpr double kSameSpot = 0.12;   // corners of other borders of the same window [sizes]
-  static constexpr int kMaxQuestions = 4;     // times the confirmations; then checks pause
+  static constexpr double kSameCompetitor = 0.08;  // corners of one competitor in two images [sizes]
+  static constexpr double kSameSpot = 0.12;        // corners of other borders of the same window [sizes]
+  static constexpr int kMaxQuestions = 4;          // times the confirmations; then checks pause
   static constexpr int kPauseFrames = 60;
 
   static Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
@@ -90,7 +92,7 @@ class TrackRecheck {
   TrackParams params_;
   bool confirmed_ = false, doubtful_ = false;
   int frames_ = 0, asked_ = 0, for_ = 0, against_ = 0;
-  Quadrilateral rival_;  ///< relative to the track's centre [its sizes]
+  Quadrilateral competitor_;  ///< relative to the track's centre [its sizes]
 };
 
 }  // namespace window_ingress::detection

@@ -13,10 +13,10 @@ using test::PatchedWall;
 using test::seenFrom;
 
 ScoredCandidate rough(const Quadrilateral& quad, double score = 0.7) {
-  ScoredCandidate rival;
-  rival.quad = quad;
-  rival.score = score;
-  return rival;
+  ScoredCandidate candidate;
+  candidate.quad = quad;
+  candidate.score = score;
+  return candidate;
 }
 
 /// A judge that has learned one wall, in front of a view of it.
@@ -34,9 +34,9 @@ struct Known {
 
 TEST(RingMatcher, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
-  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
-                                         rough(test::grown(known.opening, 3.0), 0.3)};
-  const auto& found = known.judge.align(known.image, nullptr, rivals);
+  std::vector<ScoredCandidate> candidates = {rough(test::rectangle(40, 60, 160, 150), 0.99),
+                                             rough(test::grown(known.opening, 3.0), 0.3)};
+  const auto& found = known.judge.align(known.image, nullptr, candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
   EXPECT_GT(*found[0].correlation, 0.8);
@@ -46,24 +46,24 @@ TEST(RingMatcher, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
 
 TEST(RingMatcher, LoopsOfOnePlaceGiveOne) {
   Known known{PatchedWall(3)};
-  std::vector<ScoredCandidate> rivals;
-  for (double grown : {-3.0, 0.0, 2.0, 4.0}) rivals.push_back(rough(test::grown(known.opening, grown)));
-  EXPECT_EQ(known.judge.align(known.image, nullptr, rivals).size(), 1U);
+  std::vector<ScoredCandidate> candidates;
+  for (double grown : {-3.0, 0.0, 2.0, 4.0}) candidates.push_back(rough(test::grown(known.opening, grown)));
+  EXPECT_EQ(known.judge.align(known.image, nullptr, candidates).size(), 1U);
 }
 
 TEST(RingMatcher, NothingIsKnownBeforeAReference) {
   RingMatcher judge;
-  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(9, 9, 50, 50))};
+  std::vector<ScoredCandidate> candidates = {rough(test::rectangle(9, 9, 50, 50))};
   EXPECT_FALSE(judge.known());
-  EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
+  EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, candidates).empty());
 }
 
 TEST(RingMatcher, ThePlaceIsFoundInTheWholeImageWithoutAnyEdge) {
   Known known{PatchedWall(3)};
-  auto rivals = known.judge.placesEverywhere(known.image);
-  ASSERT_FALSE(rivals.empty());
-  EXPECT_LE(rivals.size(), 6U);
-  const auto& found = known.judge.align(known.image, nullptr, rivals);
+  auto candidates = known.judge.placesEverywhere(known.image);
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_LE(candidates.size(), 6U);
+  const auto& found = known.judge.align(known.image, nullptr, candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
 }
@@ -77,8 +77,8 @@ TEST(RingMatcher, APlaceIsFoundEverywhereThoughTheReferenceEndsBesideTheOpening)
   RingMatcher matcher;
   matcher.learn(reference.colRange(left, reference.cols).clone(), corners);
   const cv::Mat image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
-  auto rivals = matcher.placesEverywhere(image);
-  const auto& found = matcher.align(image, nullptr, rivals);
+  auto candidates = matcher.placesEverywhere(image);
+  const auto& found = matcher.align(image, nullptr, candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, opening), 0.5);
 }
@@ -86,8 +86,8 @@ TEST(RingMatcher, APlaceIsFoundEverywhereThoughTheReferenceEndsBesideTheOpening)
 TEST(RingMatcher, NoPlaceOnAnotherWallFits) {
   Known known{PatchedWall(3)};
   const cv::Mat other = PatchedWall(4).draw(seenFrom(3.5, 0.4), nullptr);
-  auto rivals = known.judge.placesEverywhere(other);
-  for (const ScoredCandidate& place : known.judge.align(other, nullptr, rivals))
+  auto candidates = known.judge.placesEverywhere(other);
+  for (const ScoredCandidate& place : known.judge.align(other, nullptr, candidates))
     EXPECT_LT(*place.correlation, DetectorParams().min_correlation);
 }
 

@@ -18,10 +18,10 @@ test::DrawnWindow framed(double scale = 1.0) {
   return drawn;
 }
 
-bool holds(const std::vector<ScoredCandidate>& rivals, const geometry::Quadrilateral& quad,
+bool holds(const std::vector<ScoredCandidate>& candidates, const geometry::Quadrilateral& quad,
            double within_px) {
-  return std::any_of(rivals.begin(), rivals.end(), [&](const ScoredCandidate& rival) {
-    return test::worstCorner(rival.quad, quad) < within_px;
+  return std::any_of(candidates.begin(), candidates.end(), [&](const ScoredCandidate& candidate) {
+    return test::worstCorner(candidate.quad, quad) < within_px;
   });
 }
 
@@ -30,9 +30,10 @@ TEST(CandidateSearch, OneSetOfParametersServesAllImageSizes) {
   for (double scale : {0.5, 1.0, 2.0, 3.0}) {
     DetectionTrace trace;
     const auto drawn = framed(scale);
-    const auto rivals = search.run(drawn.draw(), nullptr, trace);
-    EXPECT_TRUE(holds(rivals, drawn.opening, 3.0 * search.factor())) << "inner, scale " << scale;
-    EXPECT_TRUE(holds(rivals, test::grown(drawn.opening, drawn.frame_px), 3.0 * search.factor())) << scale;
+    const auto candidates = search.run(drawn.draw(), nullptr, trace);
+    EXPECT_TRUE(holds(candidates, drawn.opening, 3.0 * search.factor())) << "inner, scale " << scale;
+    EXPECT_TRUE(holds(candidates, test::grown(drawn.opening, drawn.frame_px), 3.0 * search.factor()))
+        << scale;
     EXPECT_FALSE(trace.budget_exceeded);
   }
 }
@@ -41,10 +42,10 @@ TEST(CandidateSearch, BestFirstAndNoMoreThanAsked) {
   DetectorParams params;
   params.max_candidates = 3;
   DetectionTrace trace;
-  const auto rivals = CandidateSearch(params).run(framed().draw(), nullptr, trace);
-  ASSERT_EQ(rivals.size(), 3u);
-  EXPECT_GE(rivals[0].rank(), rivals[1].rank());
-  EXPECT_GE(rivals[1].rank(), rivals[2].rank());
+  const auto candidates = CandidateSearch(params).run(framed().draw(), nullptr, trace);
+  ASSERT_EQ(candidates.size(), 3u);
+  EXPECT_GE(candidates[0].rank(), candidates[1].rank());
+  EXPECT_GE(candidates[1].rank(), candidates[2].rank());
   for (const CandidateTrace& candidate : trace.candidates) EXPECT_NE(candidate.reject, RejectReason::kNone);
 }
 
@@ -53,8 +54,8 @@ TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {
   for (int y = 0; y < grating.rows; ++y)
     for (int x = 0; x < grating.cols; ++x) grating.at<uchar>(y, x) = (x / 8 + y / 8) % 2 ? 230 : 20;
   DetectionTrace trace;
-  const auto rivals = CandidateSearch(DetectorParams()).run(grating, nullptr, trace);
-  EXPECT_LE(static_cast<int>(rivals.size()), DetectorParams().max_candidates);
+  const auto candidates = CandidateSearch(DetectorParams()).run(grating, nullptr, trace);
+  EXPECT_LE(static_cast<int>(candidates.size()), DetectorParams().max_candidates);
 }
 
 cv::Mat brightAndDarkPatches() {
@@ -97,9 +98,9 @@ TEST(CandidateSearch, ABlobIsFoundWhereItsEdgesAreTooSoft) {
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
   EXPECT_TRUE(search.run(image, nullptr, trace).empty()) << "the image is too easy for this test";
-  const auto& rivals = search.runOnColours({}, trace);
-  ASSERT_TRUE(holds(rivals, opening, 12.0));
-  EXPECT_EQ(rivals[0].candidate.source, CandidateSource::kBlob);
+  const auto& candidates = search.runOnColours({}, trace);
+  ASSERT_TRUE(holds(candidates, opening, 12.0));
+  EXPECT_EQ(candidates[0].found.source, CandidateSource::kBlob);
 }
 
 // A thin, blurred frame of one colour in front of bright and dark patches, in dim and uneven light.

@@ -17,11 +17,11 @@ cv::Mat framed() {
 }
 
 std::vector<RejectReason> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
-  std::vector<ScoredCandidate> rivals(loops.size());
-  for (std::size_t i = 0; i < loops.size(); ++i) rivals[i].quad = loops[i], rivals[i].score = 1.0;
-  judgeNestedQuads(image, 2, rivals);
+  std::vector<ScoredCandidate> candidates(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) candidates[i].quad = loops[i], candidates[i].score = 1.0;
+  judgeNestedQuads(image, 2, candidates);
   std::vector<RejectReason> verdicts;
-  for (const ScoredCandidate& rival : rivals) verdicts.push_back(rival.verdict);
+  for (const ScoredCandidate& candidate : candidates) verdicts.push_back(candidate.verdict);
   return verdicts;
 }
 

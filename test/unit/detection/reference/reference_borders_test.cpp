@@ -41,7 +41,7 @@ void expectLocated(ReferenceBorders& borders, const Facade& facade, const Quadri
   const auto found = borders.locate(facade.draw(), rough, nullptr, ReferenceBorders::kFine);
   ASSERT_TRUE(found);
   EXPECT_LT(test::worstCorner(found->quad, facade.opening), 3.5);
-  EXPECT_GT(found->worth, 0.3);
+  EXPECT_GT(found->border_score, 0.3);
 }
 
 TEST(ReferenceBorders, TheInnerBorderIsFoundFromTheOuterOneAndFromWithin) {
@@ -66,7 +66,7 @@ TEST(ReferenceBorders, ADifferentlyPaintedFrameIsWorthLittle) {
   Facade other;
   other.paint = cv::Scalar(200, 60, 30);
   const auto found = borders.locate(other.draw(), other.opening, nullptr, ReferenceBorders::kFine);
-  EXPECT_LT(found ? found->worth : 0.0, 0.2);
+  EXPECT_LT(found ? found->border_score : 0.0, 0.2);
 }
 
 TEST(ReferenceBorders, AReferenceWithoutAFrameIsKnownAsSuch) {
