@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detection/alignment/homography_sums.hpp"
+#include "detection/image_pyramid.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
-
-constexpr int kSmallestLevelPx = 16;
 
 constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples per mean side]
 constexpr double kBlur = 0.5;                        ///< of a level [samples]
@@ -164,25 +163,6 @@ RingLevel sampled(const RingReader& reader, const Shape& shape, double side_px) 
 }
 
 }  // namespace
-
-void ImagePyramid::set(const cv::Mat& image) {
-  deepest_ = 0;
-  while (std::min(image.cols, image.rows) >> (deepest_ + 1) >= kSmallestLevelPx) ++deepest_;
-  if (static_cast<int>(levels_.size()) <= deepest_) levels_.resize(deepest_ + 1);
-  levels_[0] = image;
-  made_ = 0;
-}
-
-const cv::Mat& ImagePyramid::level(int k) {
-  const int wanted = std::clamp(k, 0, deepest_);
-  for (; made_ < wanted; ++made_) {
-    const cv::Mat& from = levels_[made_];
-    const cv::Size half(from.cols / 2, from.rows / 2);
-    cv::resize(from(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[made_ + 1], half, 0, 0,
-               cv::INTER_AREA);
-  }
-  return levels_[wanted];
-}
 
 std::array<float, 257> logsOfColours() {
   std::array<float, 257> logs{};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "detection/alignment/ring_model.hpp"
+#include "detection/image_pyramid.hpp"
 
 namespace window_ingress::detection {
 

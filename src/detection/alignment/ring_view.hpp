@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detection/alignment/ring_model.hpp"
+#include "detection/image_pyramid.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detection/chromaticity.hpp"
+#include "detection/image_pyramid.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -26,10 +27,8 @@ SearchLevel Preprocess::run(const cv::Mat& image) {
   SearchLevel level;
   cv::Mat current = image;
   for (int i = 0; std::max(current.cols, current.rows) > params_.search_side_px; i ^= 1) {
-    const cv::Size half(current.cols / 2, current.rows / 2);
-    if (std::min(half.width, half.height) < kMinSidePx) break;
-    cv::resize(current(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[i], half, 0, 0,
-               cv::INTER_AREA);
+    if (std::min(current.cols, current.rows) / 2 < kMinSidePx) break;
+    halve(current, levels_[i]);
     current = levels_[i];
     level.factor *= 2;
   }
