@@ -7,42 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "detection/reference/ring_samples.hpp"
 #include "window_ingress/detection/text_overlay.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
-const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kOrange(0, 140, 255), kBlue(255, 120, 0);
-constexpr double kFaded = 0.45, kTint = 0.3;
-
-std::vector<cv::Point> pixelsOf(const geometry::Quadrilateral& quad) {
-  constexpr double kFar = 1e5;
-  std::vector<cv::Point> points;
-  for (const auto& corner : quad)
-    points.emplace_back(cvRound(std::clamp(corner.x(), -kFar, kFar)),
-                        cvRound(std::clamp(corner.y(), -kFar, kFar)));
-  return points;
-}
-
-cv::Mat within(const cv::Size& size, const geometry::Quadrilateral& quad) {
-  cv::Mat mask(size, CV_8U, cv::Scalar(0));
-  if (geometry::isFinite(quad)) cv::fillConvexPoly(mask, pixelsOf(quad), cv::Scalar(255));
-  return mask;
-}
-
-void tint(const cv::Mat& image, const cv::Mat& mask, const cv::Scalar& colour, cv::Mat& canvas) {
-  cv::Mat tinted;
-  cv::addWeighted(image, 1.0 - kTint, cv::Mat(image.size(), image.type(), colour), kTint, 0.0, tinted);
-  tinted.copyTo(canvas, mask);
-}
-
-void write(cv::Mat& canvas, const std::string& text, int height) {
-  cv::copyMakeBorder(canvas, canvas, 0, height, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
-  const double scale = std::min(height / 40.0, canvas.cols / (20.0 * static_cast<double>(text.size())));
-  cv::putText(canvas, text, {6, canvas.rows - height / 3}, cv::FONT_HERSHEY_SIMPLEX, scale,
-              cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
-}
+const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255);
 
 constexpr double kDim = 0.8;    ///< part of the image's brightness that remains, so that lines stand out
 constexpr double kFaint = 0.4;  ///< strength of candidates that failed before they had a score
@@ -101,7 +71,7 @@ bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
 }
 
 // Labels a few candidates, each at a different place.
-void explainBest(TextOverlay& lettering, const DetectionTrace& trace) {
+void explainBest(TextOverlay& overlay, const DetectionTrace& trace) {
   constexpr double kSamePlace = 0.5;
   std::vector<const CandidateTrace*> all, told;
   for (const CandidateTrace& candidate : trace.candidates)
@@ -113,7 +83,7 @@ void explainBest(TextOverlay& lettering, const DetectionTrace& trace) {
           return geometry::intersectionOverUnion(one->quad, other->quad) > kSamePlace;
         }))
       continue;
-    if (lettering.label({describe(*one), colourOf(one->reject)}, pixel(one->quad[geometry::kTopLeft])))
+    if (overlay.label({describe(*one), colourOf(one->reject)}, pixel(one->quad[geometry::kTopLeft])))
       told.push_back(one);
   }
 }
@@ -153,30 +123,6 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 
 }  // namespace
 
-cv::Mat drawReference(const ReferenceAppearance& reference) {
-  cv::Mat grey = reference.image(), image;  // so that tints look the same on every frame
-  if (grey.channels() == 3) cv::cvtColor(reference.image(), grey, cv::COLOR_BGR2GRAY);
-  cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
-  const geometry::Quadrilateral& opening = reference.opening();
-  const cv::Mat inner = within(image.size(), opening);
-  const cv::Mat near = within(image.size(), ringLine(opening, RingSamples::kFrameWidth));
-  const cv::Mat far = within(image.size(), ringLine(opening, RingSamples::kSurroundWidth));
-  cv::Mat canvas;
-  image.convertTo(canvas, -1, kFaded);
-  tint(image, far & ~near, kBlue, canvas);
-  tint(image, near & ~inner, kOrange, canvas);
-  const int width = std::max(1, image.cols / 400);
-  cv::polylines(canvas, std::vector<std::vector<cv::Point>>{pixelsOf(opening)}, true, kGreen, width,
-                cv::LINE_AA);
-  cv::circle(canvas, pixelsOf(opening)[0], 3 * width + 1, kGreen, cv::FILLED, cv::LINE_AA);
-  write(canvas,
-        std::string(reference.openingIsKnown() ? "green: inner border of the opening"
-                                               : "green: opening, GUESSED") +
-            "; orange: frame, blue: surround, whose colours are compared",
-        std::max(20, image.rows / 20));
-  return canvas;
-}
-
 cv::Scalar colourOf(RejectReason reason) {
   // Eleven hues without the target's green: pale for the first gates, strong for later ones.
   constexpr int kSteps = 11, kStride = 4, kHues = 180, kGreenest = 36, kGreenWidth = 50;
@@ -200,22 +146,22 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
   canvas.convertTo(canvas, -1, kDim);
   drawCandidates(canvas, trace);
   if (window) window->whole() ? drawWhole(canvas, *window) : drawSides(canvas, *window);
-  TextOverlay lettering(canvas);
-  lettering.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
-  if (window && window->whole()) lettering.keepFree(boxRound(window->corners));
-  lettering.box(legendOf(trace));
+  TextOverlay overlay(canvas);
+  overlay.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
+  if (window && window->whole()) overlay.keepFree(boxRound(window->corners));
+  overlay.box(legendOf(trace));
   if (window && window->whole())
-    lettering.label({cv::format("target, score %.2f", window->score), kGreen},
-                    pixel(window->corners[geometry::kTopLeft]));
-  explainBest(lettering, trace);
+    overlay.label({cv::format("target, score %.2f", window->score), kGreen},
+                  pixel(window->corners[geometry::kTopLeft]));
+  explainBest(overlay, trace);
 }
 
 void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text) {
   if (canvas.empty() || canvas.type() != CV_8UC3 || !window.whole() || !geometry::isFinite(window.corners))
     return;
-  TextOverlay lettering(canvas);
-  lettering.keepFree(boxRound(window.corners));
-  lettering.label({text, kGreen}, pixel(window.corners[geometry::kBottomLeft]));
+  TextOverlay overlay(canvas);
+  overlay.keepFree(boxRound(window.corners));
+  overlay.label({text, kGreen}, pixel(window.corners[geometry::kBottomLeft]));
 }
 
 }  // namespace window_ingress::detection

@@ -6,15 +6,9 @@
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
-#include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
 namespace window_ingress::detection {
-
-/// Shows how the reference is interpreted: the inner border in green with corner 1 marked, the two bands
-/// whose colours are compared (frame orange, surround blue), everything else faded, and a line of text below.
-/// \return CV_8UC3, higher than the image by that line
-cv::Mat drawReference(const ReferenceAppearance& reference);
 
 /// Draws what happened to each candidate of an image (P10): rejected ones thin, in the colour of their gate
 /// with a legend, and the best of them with gate and margin in words. The target is a green quadrilateral

@@ -19,31 +19,31 @@ bool isBlank(const cv::Mat& canvas) {
 
 TEST(TextOverlay, LabelsKeepOffEachOther) {
   cv::Mat canvas(480, 640, CV_8UC3, cv::Scalar::all(100));
-  TextOverlay lettering(canvas);
+  TextOverlay overlay(canvas);
   int written = 0;
-  while (written < 100 && lettering.label({"aspect 3.1 > 2.5", kWhite}, {320, 240})) ++written;
+  while (written < 100 && overlay.label({"aspect 3.1 > 2.5", kWhite}, {320, 240})) ++written;
   EXPECT_GE(written, 4);
   EXPECT_LT(written, 12) << "there is room for a few beside one point";
 }
 
 TEST(TextOverlay, NothingIsWrittenOutsideOrWhereItIsToBeFree) {
   cv::Mat canvas(480, 640, CV_8UC3, cv::Scalar::all(100));
-  TextOverlay lettering(canvas);
-  lettering.keepFree({200, 150, 240, 180});
-  EXPECT_FALSE(lettering.label({"label", kWhite}, {5000, 5000}));
-  EXPECT_FALSE(lettering.label({"label", kWhite}, {320, 240}));
+  TextOverlay overlay(canvas);
+  overlay.keepFree({200, 150, 240, 180});
+  EXPECT_FALSE(overlay.label({"label", kWhite}, {5000, 5000}));
+  EXPECT_FALSE(overlay.label({"label", kWhite}, {320, 240}));
   EXPECT_TRUE(isBlank(canvas));
-  EXPECT_TRUE(lettering.label({"label", kWhite}, {200, 150})) << "above it";
+  EXPECT_TRUE(overlay.label({"label", kWhite}, {200, 150})) << "above it";
   EXPECT_TRUE(isBlank(canvas(cv::Rect(200, 150, 240, 180)))) << "area kept free";
 }
 
 TEST(TextOverlay, TheBoxLeavesFreeWhatIsToBeFree) {
   const cv::Rect upper_left(10, 10, 200, 200), upper_right(430, 10, 200, 200);
   cv::Mat canvas(480, 640, CV_8UC3, cv::Scalar::all(100));
-  TextOverlay lettering(canvas);
-  lettering.keepFree(upper_left);
-  lettering.keepFree(upper_right);
-  lettering.box({{"11  corners", kWhite}, {"3  aspect", kWhite}});
+  TextOverlay overlay(canvas);
+  overlay.keepFree(upper_left);
+  overlay.keepFree(upper_right);
+  overlay.box({{"11  corners", kWhite}, {"3  aspect", kWhite}});
   EXPECT_TRUE(isBlank(canvas(upper_left)));
   EXPECT_TRUE(isBlank(canvas(upper_right)));
   EXPECT_FALSE(isBlank(canvas));
