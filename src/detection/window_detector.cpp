@@ -55,14 +55,14 @@ struct WindowDetector::Impl {
   TargetChoice choice;
   std::vector<ScoredCandidate> found_first, candidates;
   std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, computed on demand
-  StageTimer* watch = nullptr;
+  StageTimer* timer = nullptr;
 };
 
 // Chooses among the candidates that the reference has judged.
 std::optional<WindowObservation> WindowDetector::Impl::choose(const View& view) {
-  done(watch, Stage::kReference);
+  done(timer, Stage::kReference);
   auto window = choice.choose(candidates, search.factor(), view);
-  done(watch, Stage::kBorders);
+  done(timer, Stage::kBorders);
   return window;
 }
 
@@ -147,14 +147,14 @@ void WindowDetector::setParams(const DetectorParams& params) {
   check(params);
   auto next = std::make_unique<Impl>(params);
   next->reference.learn(impl_->reference.reference());
-  StageTimer* const watch = impl_->watch;
+  StageTimer* const timer = impl_->timer;
   impl_ = std::move(next);
-  setWatch(watch);
+  setTimer(timer);
 }
 
-void WindowDetector::setWatch(StageTimer* watch) {
-  impl_->watch = watch;
-  impl_->search.setWatch(watch);
+void WindowDetector::setTimer(StageTimer* timer) {
+  impl_->timer = timer;
+  impl_->search.setTimer(timer);
 }
 
 void WindowDetector::setReference(const ReferenceAppearance& reference) {
@@ -196,7 +196,7 @@ std::optional<RefinedBorders> WindowDetector::bordersNear(const geometry::Quadri
   return impl_->choice.bordersNear(place, {image, 0.0, camera});
 }
 
-StageTimer* WindowDetector::watch() const { return impl_->watch; }
+StageTimer* WindowDetector::timer() const { return impl_->timer; }
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
 

@@ -136,8 +136,8 @@ class Bench {
         params_(start),
         fields_(parameters::fieldsOf(params_)),
         detector_(start),
-        watch_(adapters::steadyNowSec) {
-    detector_.setWatch(&watch_);
+        timer_(adapters::steadyNowSec) {
+    detector_.setTimer(&timer_);
     if (reference_) detector_.setReference(*reference_);
   }
 
@@ -148,7 +148,7 @@ class Bench {
   /// \return one line: what was found, and how long it took
   std::string look(const cv::Mat& image) {
     const double begun_sec = adapters::steadyNowSec();
-    watch_.begin();
+    timer_.begin();
     const auto window = detector_.detect(image, 0.0);
     milliseconds_ = 1e3 * (adapters::steadyNowSec() - begun_sec);
     found_ = window.has_value();
@@ -170,8 +170,8 @@ class Bench {
     std::string line = formatted("%.1f ms", milliseconds_);
     for (int i = 0; i < detection::kStages; ++i) {
       const auto stage = static_cast<detection::Stage>(i);
-      if (watch_.milliseconds(stage) < 0.05) continue;
-      line += formatted(", %s %.1f", detection::toString(stage), watch_.milliseconds(stage));
+      if (timer_.milliseconds(stage) < 0.05) continue;
+      line += formatted(", %s %.1f", detection::toString(stage), timer_.milliseconds(stage));
     }
     return line;
   }
@@ -180,7 +180,7 @@ class Bench {
   detection::DetectorParams params_;
   std::vector<Field> fields_;  // refer to params_
   detection::WindowDetector detector_;
-  detection::StageTimer watch_;
+  detection::StageTimer timer_;
   bool found_ = false;
   double milliseconds_ = 0.0;
 };

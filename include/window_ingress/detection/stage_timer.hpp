@@ -38,8 +38,8 @@ class StageTimer {
 };
 
 /// For callers whose timer may be null.
-inline void done(StageTimer* watch, Stage stage) {
-  if (watch) watch->done(stage);
+inline void done(StageTimer* timer, Stage stage) {
+  if (timer) timer->done(stage);
 }
 
 }  // namespace window_ingress::detection

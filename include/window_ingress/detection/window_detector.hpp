@@ -40,10 +40,10 @@ class WindowDetector {
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera) const;
 
-  /// \param watch notified of each finished stage, or null; must outlive this object; the owner calls its
+  /// \param timer notified of each finished stage, or null; must outlive this object; the owner calls its
   /// `begin`
-  void setWatch(StageTimer* watch);
-  StageTimer* watch() const;
+  void setTimer(StageTimer* timer);
+  StageTimer* timer() const;
 
   /// What happened to every candidate of the last image.
   const DetectionTrace& trace() const;

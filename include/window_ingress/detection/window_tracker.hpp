@@ -69,7 +69,7 @@ class WindowTracker {
   /// \return nothing if the target is not seen; `trace()` then says why
   std::optional<WindowObservation> update(const TrackInput& input);
 
-  void setWatch(StageTimer* watch);  ///< as `WindowDetector::setWatch`; tracking is a stage, too
+  void setTimer(StageTimer* timer);  ///< as `WindowDetector::setTimer`; tracking is a stage, too
 
   /// The windows of the last frame: the target if it is whole and, if the frame was searched, all others.
   const std::vector<SeenWindow>& windows() const;

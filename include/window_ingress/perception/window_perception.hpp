@@ -31,7 +31,7 @@ class WindowPerception {
 
   void setParams(const detection::DetectorParams& params) { tracker_.setParams(params); }
   void setReference(const detection::ReferenceAppearance& reference) { tracker_.setReference(reference); }
-  void setWatch(detection::StageTimer* watch) { tracker_.setWatch(watch); }
+  void setTimer(detection::StageTimer* timer) { tracker_.setTimer(timer); }
   /// Forgets what was seen; parameters and reference stay.
   void reset();
 

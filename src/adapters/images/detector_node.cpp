@@ -27,7 +27,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       tuning_(pnh, params_.detector,
               [this](const auto& params) { perception_.setParams(params_.detector = params); }),
       times_(params_.budget_ms, steadyNowSec) {
-  perception_.setWatch(&times_.watch());
+  perception_.setTimer(&times_.timer());
   if (params_.use_imu)
     attitude_.emplace(nh, diagnostics_, vehicle_.frames.base, queueFor(params_.lockstep, 100));
   if (!params_.reference.picture.empty())

@@ -19,15 +19,15 @@ class ProcessingTime {
   /// \param budget_ms per image; 0: the camera's period
   /// \param clock monotonic, seconds
   ProcessingTime(double budget_ms, detection::StageTimer::Clock clock)
-      : watch_(clock), clock_(clock), budget_ms_(budget_ms) {}
+      : timer_(clock), clock_(clock), budget_ms_(budget_ms) {}
 
-  detection::StageTimer& watch() { return watch_; }
+  detection::StageTimer& timer() { return timer_; }
 
   /// Starts an image. \param decode_ms decoding time before this call
   void begin(const std_msgs::Header& header, double decode_ms) {
     notePeriod(header.seq);
     decode_ms_ = decode_ms;
-    watch_.begin();
+    timer_.begin();
   }
 
   /// \return milliseconds since `begin`
@@ -39,7 +39,7 @@ class ProcessingTime {
     decoding_ms_ += part * (decode_ms_ - decoding_ms_);
     slowest_ms_ = std::max(slowest_ms_, whole_ms);
     for (int i = 0; i < detection::kStages; ++i)
-      stage_ms_[i] += part * (watch_.milliseconds(static_cast<detection::Stage>(i)) - stage_ms_[i]);
+      stage_ms_[i] += part * (timer_.milliseconds(static_cast<detection::Stage>(i)) - stage_ms_[i]);
   }
 
   Health health() const {
@@ -81,7 +81,7 @@ class ProcessingTime {
     begun_sec_ = now_sec;
   }
 
-  detection::StageTimer watch_;
+  detection::StageTimer timer_;
   detection::StageTimer::Clock clock_;
   double budget_ms_, begun_sec_ = 0.0, decode_ms_ = 0.0;
   double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // recent means, except for the last

@@ -47,7 +47,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
   factor_ = level.factor;
   level_size_ = level.image.size();
   undistortion_.set(camera, level_size_, factor_);
-  done(watch_, Stage::kPreprocess);
+  done(timer_, Stage::kPreprocess);
   look(level.image);
   return combine(SegmentQuads::kQuick, trace);
 }
@@ -55,16 +55,16 @@ const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
 // From edges to segments and outlines.
 void CandidateSearch::look(const cv::Mat& level) {
   map_ = &edges_.run(level);
-  done(watch_, Stage::kEdges);
+  done(timer_, Stage::kEdges);
   segments_ = &hough_.run(chains_.run(*map_, undistortion_), level_size_);
-  done(watch_, Stage::kLines);
+  done(timer_, Stage::kLines);
   keepOnSegments(chains_, hough_, level_size_, straight_);
   outlines_.candidates.clear();
   outlines_.rejected.clear();
   outlines_.contours = 0;
   outlines_.budget_exceeded = false;
   outline(straight_, CandidateSource::kContour);
-  done(watch_, Stage::kOutlines);
+  done(timer_, Stage::kOutlines);
 }
 
 void CandidateSearch::outline(const cv::Mat& mask, CandidateSource source) {
@@ -87,7 +87,7 @@ void CandidateSearch::outlineBlobs(const cv::Mat& level, double contrast) {
     for (const auto sign : {BlobMasks::Sign::kAbove, BlobMasks::Sign::kBelow})
       outline(blobs_.run(sign, contrast), CandidateSource::kBlob);
   }
-  done(watch_, Stage::kOutlines);
+  done(timer_, Stage::kOutlines);
 }
 
 const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(const std::optional<Eigen::Vector3f>& paint,
@@ -95,7 +95,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(const std::opt
   const cv::Mat& colours = paint ? preprocess_.paintAlone(*paint) : preprocess_.coloursAlone();
   kept_.clear();
   if (colours.empty()) return kept_;
-  done(watch_, Stage::kPreprocess);
+  done(timer_, Stage::kPreprocess);
   look(colours);
   outlineBlobs(colours, paint ? kPaintContrast : kColourContrast);
   return combine(SegmentQuads::kThorough, trace);
@@ -114,7 +114,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
   admit(quads.candidates, trace);
   admit(outlines_.candidates, trace);
   keepBest(trace);
-  done(watch_, Stage::kCandidates);
+  done(timer_, Stage::kCandidates);
   return kept_;
 }
 

@@ -45,8 +45,8 @@ class CandidateSearch {
   /// are no windows; the caller must judge them. Valid until the next call.
   const std::vector<ScoredCandidate>& open();
 
-  /// \param watch is notified of each completed stage; null: none; must outlive this object
-  void setWatch(StageTimer* watch) { watch_ = watch; }
+  /// \param timer is notified of each completed stage; null: none; must outlive this object
+  void setTimer(StageTimer* timer) { timer_ = timer; }
 
   int factor() const { return factor_; }  ///< pixels of the last image per pixel of its search level
 
@@ -73,7 +73,7 @@ class CandidateSearch {
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
   std::vector<ScoredCandidate> admitted_, kept_, open_;
-  StageTimer* watch_ = nullptr;
+  StageTimer* timer_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;
 };

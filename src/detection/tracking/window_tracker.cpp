@@ -177,7 +177,7 @@ std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput
 std::optional<WindowObservation> WindowTracker::Impl::updated(const TrackInput& input) {
   begin(input);
   const bool followed = tracking && follow(input);
-  done(detector.watch(), Stage::kTrack);
+  done(detector.timer(), Stage::kTrack);
   if (followed) {
     realign(input);
     has_own_trace = true;
@@ -223,7 +223,7 @@ void WindowTracker::setReference(const ReferenceAppearance& reference) {
   impl_->forget();
 }
 
-void WindowTracker::setWatch(StageTimer* watch) { impl_->detector.setWatch(watch); }
+void WindowTracker::setTimer(StageTimer* timer) { impl_->detector.setTimer(timer); }
 
 void WindowTracker::reset() {
   impl_->appearance_gate.forget();

@@ -15,9 +15,9 @@ namespace window_ingress::detection::stage_timer_test {
 double slow_clock_sec = 0.0;
 double slowClock() { return slow_clock_sec += 1e-3; }
 
-double sum(const StageTimer& watch) {
+double sum(const StageTimer& timer) {
   double total = 0.0;
-  for (int i = 0; i < kStages; ++i) total += watch.milliseconds(static_cast<Stage>(i));
+  for (int i = 0; i < kStages; ++i) total += timer.milliseconds(static_cast<Stage>(i));
   return total;
 }
 
@@ -35,40 +35,40 @@ TEST(StageTimer, NamesAreDifferent) {
 }
 
 TEST(StageTimer, AddsUpAndBeginsAnew) {
-  StageTimer watch(slowClock);
-  watch.begin();
-  watch.done(Stage::kEdges);
-  watch.done(Stage::kLines);
-  watch.done(Stage::kEdges);
-  EXPECT_NEAR(watch.milliseconds(Stage::kEdges), 2.0, 1e-9);
-  EXPECT_NEAR(watch.milliseconds(Stage::kLines), 1.0, 1e-9);
-  watch.begin();
-  EXPECT_EQ(sum(watch), 0.0);
+  StageTimer timer(slowClock);
+  timer.begin();
+  timer.done(Stage::kEdges);
+  timer.done(Stage::kLines);
+  timer.done(Stage::kEdges);
+  EXPECT_NEAR(timer.milliseconds(Stage::kEdges), 2.0, 1e-9);
+  EXPECT_NEAR(timer.milliseconds(Stage::kLines), 1.0, 1e-9);
+  timer.begin();
+  EXPECT_EQ(sum(timer), 0.0);
 }
 
 TEST(StageTimer, AWindowIsSearchedThenFollowed) {
   const cv::Mat image = windowImage();
-  StageTimer watch(slowClock);
+  StageTimer timer(slowClock);
   WindowTracker tracker{DetectorParams{}};
-  tracker.setWatch(&watch);
+  tracker.setTimer(&timer);
   TrackInput input;
   input.image = image;
-  watch.begin();
+  timer.begin();
   ASSERT_TRUE(tracker.update(input));
   for (const Stage stage : {Stage::kPreprocess, Stage::kEdges, Stage::kLines, Stage::kOutlines,
                             Stage::kCandidates, Stage::kReference, Stage::kBorders})
-    EXPECT_GT(watch.milliseconds(stage), 0.0) << toString(stage);
+    EXPECT_GT(timer.milliseconds(stage), 0.0) << toString(stage);
   tracker.setParams(DetectorParams{});  // keeps the timer
   input.stamp_sec = 0.03;
-  watch.begin();
+  timer.begin();
   ASSERT_TRUE(tracker.update(input));
-  EXPECT_GT(watch.milliseconds(Stage::kEdges), 0.0);
+  EXPECT_GT(timer.milliseconds(Stage::kEdges), 0.0);
 }
 
 TEST(StageTimer, NobodyNeedsOne) {
   WindowDetector detector{DetectorParams{}};
-  EXPECT_EQ(detector.watch(), nullptr);
-  done(detector.watch(), Stage::kEdges);
+  EXPECT_EQ(detector.timer(), nullptr);
+  done(detector.timer(), Stage::kEdges);
   EXPECT_TRUE(detector.detect(windowImage(), 0.0));
 }
 

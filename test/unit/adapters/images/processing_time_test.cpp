@@ -20,9 +20,9 @@ class ImageTimesTest : public testing::Test {
     now_sec = due_sec_ += (1 + dropped) * period_sec;
     times.begin(header_, 2.0);
     now_sec += 1e-3 * edges_ms;
-    times.watch().done(Stage::kEdges);
+    times.timer().done(Stage::kEdges);
     now_sec += 1e-3;
-    times.watch().done(Stage::kBorders);
+    times.timer().done(Stage::kBorders);
     times.end();
   }
   static double value(const Health& health, const std::string& key) {
