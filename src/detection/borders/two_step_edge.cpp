@@ -30,7 +30,7 @@ constexpr int kMaxEdgeSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxEdge
 using Params = Eigen::Vector3d;  // front, apart, blur
 using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxEdgeSamples, 3>;
 using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRests, 1>;
-using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
+using RestSlopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
 
 /// The cumulative normal distribution, from a table.
 class Step {
@@ -112,7 +112,7 @@ void keepSane(Params& p) {
   p[2] = std::clamp(p[2], kMinBlur, 3.0);
 }
 
-void slopesOf(const Model& model, const Params& at, const Rests& rests, Slopes& slopes) {
+void slopesOf(const Model& model, const Params& at, const Rests& rests, RestSlopes& slopes) {
   constexpr double kDifference = 0.02;
   slopes.resize(rests.size(), 3);
   Rests moved;
@@ -134,7 +134,7 @@ Fit fit(const Model& model, const Params& start) {
   Rests rests, tried;
   model.rests(start, rests);
   double cost = rests.squaredNorm(), damping = 1e-2;
-  Slopes slopes;
+  RestSlopes slopes;
   Eigen::Matrix3d normal;
   for (int i = 0; i < kFitIterations; ++i) {
     slopesOf(model, best.params, rests, slopes);
