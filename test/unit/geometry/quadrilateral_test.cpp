@@ -45,6 +45,19 @@ TEST(Quadrilateral, MeasuresOfABox) {
   for (double angle : interiorAngles(kBox)) EXPECT_DOUBLE_EQ(angle, M_PI_2);
 }
 
+TEST(Quadrilateral, SizesOfABoxForEitherWinding) {
+  EXPECT_DOUBLE_EQ(meanSide(kBox), 30.0);
+  EXPECT_DOUBLE_EQ(rootArea(kBox), std::sqrt(800.0));
+  EXPECT_DOUBLE_EQ(rootArea({kBox[3], kBox[2], kBox[1], kBox[0]}), std::sqrt(800.0));
+}
+
+TEST(Quadrilateral, TheFurthestCornerCounts) {
+  Quadrilateral other = kBox;
+  other[1] += Vector2d(1, 0), other[2] += Vector2d(3, -4);
+  EXPECT_DOUBLE_EQ(furthestCorner(kBox, other), 5.0);
+  EXPECT_EQ(furthestCorner(kBox, kBox), 0.0);
+}
+
 TEST(Quadrilateral, ContainsItsBorderAndNothingOutside) {
   EXPECT_TRUE(contains(kBox, {30, 30}));
   EXPECT_TRUE(contains(kBox, {10, 20}));
