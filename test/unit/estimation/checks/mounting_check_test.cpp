@@ -106,7 +106,7 @@ TEST(MountingCheck, FindsASizeThatIsWrongByAFifthHoweverSlowly) {
     int found = 0;
     for (unsigned seed = 300; seed < 320; ++seed) {
       const Result result = fly(seed, {}, 1.2, speed_mps);
-      found += result.what.find("said to be 1.20 x 1.00") != std::string::npos;
+      found += result.what.find("configured as 1.20 x 1.00") != std::string::npos;
       EXPECT_NE(fly(seed, {}, 1.0, speed_mps).state, FramesVerdict::kWrong) << seed << " at " << speed_mps;
     }
     std::printf("a size wrong by a fifth: found in %d of 20 at %.2f m/s\n", found, speed_mps);
