@@ -21,7 +21,8 @@ FLIGHT_WITHIN_S = 900.0  # wall time until the referee must have decided
 RETRY_S = 0.5
 
 
-def start(deadline):
+def start(deadline, over):
+    """Calls the navigator until it accepts. In lockstep the mission starts by itself, and may be over by now."""
     rospy.wait_for_service("ingress_navigator/start", timeout=deadline - time.monotonic())
     service = rospy.ServiceProxy("ingress_navigator/start", Trigger)
     said = None
@@ -33,6 +34,8 @@ def start(deadline):
             print(f"not ready: {reply.message}", file=sys.stderr)
         said = reply.message
         time.sleep(RETRY_S)  # wall time: /clock may not run yet
+        if over.is_set():
+            return "the mission is over"
     raise RuntimeError(f"the navigator did not start within {READY_WITHIN_S:.0f} s: {said}")
 
 
@@ -63,7 +66,7 @@ def main():
     deadline = time.monotonic() + READY_WITHIN_S
     if rospy.wait_for_message("scenario/target_chosen", Bool, READY_WITHIN_S).data:
         choose_target(deadline)
-    print(start(deadline), file=sys.stderr)
+    print(start(deadline, over), file=sys.stderr)
     if not over.wait(FLIGHT_WITHIN_S):
         raise RuntimeError(f"no verdict within {FLIGHT_WITHIN_S:.0f} s")
     verdict = verdicts[0]

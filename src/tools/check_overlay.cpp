@@ -240,15 +240,19 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
   const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/half_width_m") ||
                                                          tools::says(overlay, "vehicle/half_height_m"));
-  if (o.fly == "true" || (o.fly.empty() && says_both))
+  const bool flies = o.fly == "true" && o.needs_window_size != "false";  // sizes that are not a scenario's
+  if (flies || (o.fly.empty() && says_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
 // Faults of the parameter file are reported where it is loaded.
-void checkScenario(const Options& o, configuration::Overlay& overlay) {
+void checkScenario(const Options& o, configuration::Overlay& overlay, tools::InputFaults& faults) {
   const auto scenario = simulation::loadScenario(o.scenario, static_cast<std::uint32_t>(o.seed));
   if (!tools::InputFaults().collect([&] { overlay = tools::flownIn(scenario, given(o.flown_by)); })) return;
-  if (const std::string other = tools::otherSizes(overlay, scenario); !other.empty()) tools::warn(other);
+  const std::string other = tools::otherSizes(overlay, scenario);
+  if (!other.empty()) tools::warn(other);
+  if (!other.empty())
+    faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
 int printSize(const Options& o) {
@@ -272,7 +276,7 @@ int check(const Options& o) {
   });
   if (is_read) checkOverlay(o, file, overlay, faults);
   faults.collect([&] { checkCameraPose(given(o.camera_pose), overlay.vehicle); });
-  if (!o.scenario.empty()) faults.collect([&] { checkScenario(o, overlay); });
+  if (!o.scenario.empty()) faults.collect([&] { checkScenario(o, overlay, faults); });
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.collect([&] { tools::checkPlayed(o.bag, o.plays); });
   faults.throwIfAny();

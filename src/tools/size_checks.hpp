@@ -94,7 +94,8 @@ inline void checkAspect(double in_image, const estimation::PoseParams& opening) 
 }
 
 /// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.
-inline std::string otherSizes(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
+inline std::string otherSizes(configuration::Overlay overlay, const simulation::Scenario& scenario) {
+  evaluation::tellSizes(scenario, overlay.said, overlay.vehicle, overlay.homography_pose.pose);
   const auto differs = [&](const char* key, double said, double fact) {
     return overlay.said.count(key) != 0 && std::abs(said - fact) > 1e-6;
   };
@@ -103,10 +104,12 @@ inline std::string otherSizes(const configuration::Overlay& overlay, const simul
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;
   std::string text;
-  if (differs("vehicle/half_width_m", vehicle.half_width_m, half.y()) ||
+  if (differs("vehicle/half_length_m", vehicle.half_length_m, half.x()) ||
+      differs("vehicle/half_width_m", vehicle.half_width_m, half.y()) ||
       differs("vehicle/half_height_m", vehicle.half_height_m, half.z()))
-    text += formatted("a vehicle of %g x %g m, the world has %g x %g m", 2.0 * vehicle.half_width_m,
-                      2.0 * vehicle.half_height_m, 2.0 * half.y(), 2.0 * half.z());
+    text += formatted("a vehicle of %g x %g x %g m, the world has %g x %g x %g m",
+                      2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m,
+                      2.0 * half.x(), 2.0 * half.y(), 2.0 * half.z());
   if (differs("homography_pose/pose/opening_width_m", pose.opening_width_m, opening.width_m) ||
       differs("homography_pose/pose/opening_height_m", pose.opening_height_m, opening.height_m))
     text += (text.empty() ? "" : "; ") + formatted("an opening of %g x %g m, the world has %g x %g m",

@@ -40,7 +40,7 @@ def test_the_summary_says_what_was_flown(tmp_path):
     params.write_text("vehicle: {half_width_m: 0.3}\n")
     scenario = scenario_in(tmp_path)
     done = fly(scenario, tmp_path / "out", "--seeds", "4..6", "--params", params)
-    assert done.returncode == 0 and "the file says a vehicle of 0.6 x 0.24 m, the world has 0.4 x 0.14 m" in done.stderr, done.stderr
+    assert done.returncode == 0 and "the file says a vehicle of 0.4 x 0.6 x 0.14 m, the world has 0.4 x 0.4 x 0.14 m" in done.stderr, done.stderr
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     version = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1)
     assert {key: summary[key] for key in ("scenario", "seeds", "draws", "params", "pictures", "version")} == {

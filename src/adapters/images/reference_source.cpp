@@ -51,6 +51,8 @@ detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImag
 
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params) {
+  if (!std::filesystem::exists(reference.picture))
+    throw InputError("reference/picture: " + reference.picture + ": no such file");
   std::ifstream file(reference.picture, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
   cv::Mat image = readImage(bytes);
