@@ -233,7 +233,7 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   const bool by_argument = !given(o.window_size).empty();
   if (asksForSizes(o))
     faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
-  else if (!by_argument)
+  else if (!by_argument && given(o.defaults).empty())  // sim.launch takes the other side from the scenario
     tools::checkBothSides(overlay);
   if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
     tools::checkVehicleIsSaid(overlay);

@@ -28,6 +28,7 @@ REMEDIES = (
     ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
     ("times as wide as it is high", WRONG_SIZE),
     ("opening looks like", WRONG_SIZE),
+    ("camera mounting turned by", f"add these angles, in radians, to those of the camera, {AGAIN} camera_pose:=x,y,z,yaw,pitch,roll"),
     ("gated out: ", f"measure the opening (window_size:=W,H) and the camera's angles; where these are wrong, {AGAIN} "
                     "camera_pose:=x,y,z,yaw,pitch,roll"),
     ("does not change any more", "restart the camera's driver"),
