@@ -80,7 +80,7 @@ TEST(Fault, M27_ZeroP) {
 
 TEST(Fault, M28_DOfTheWrongLength) {
   std::vector<Refusal> all;
-  for (const std::size_t length : {1u, 3u, 4u, 6u, 8u, 100000u})
+  for (const std::size_t length : {1u, 3u, 6u, 8u, 100000u})
     all.push_back({[=](auto& info) { info.D.assign(length, 0.01); }, "D holds " + std::to_string(length)});
   for (const std::size_t length : {0u, 3u, 5u, 6u, 100000u})
     all.push_back({[=](auto& info) { info.D.assign(length, 0.01), info.distortion_model = "equidistant"; },
