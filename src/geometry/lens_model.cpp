@@ -16,11 +16,13 @@ std::string setLens(const std::string& model, const std::vector<double>& coeffic
   const bool is_fisheye = model == "equidistant" || model == "fisheye";
   const bool is_plumb_bob = model == "plumb_bob", is_rational = model == "rational_polynomial";
   const std::size_t count = coefficients.size();
-  if (!is_fisheye && areZero(coefficients.begin(), coefficients.end())) return "";
+  const bool is_straight = areZero(coefficients.begin(), coefficients.end());
+  if (model.empty() && is_straight) return "";
   if (!is_fisheye && !is_plumb_bob && !is_rational)
     return "distortion model '" + model.substr(0, 40) +
            "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
            "use rectified images (image_proc) and set vehicle/image_is_rectified";
+  if (!is_fisheye && is_straight) return "";
   const std::size_t wanted = is_plumb_bob ? 5 : is_rational ? 8 : 4;
   if (count != wanted && !(is_plumb_bob && count == 4))
     return "D holds " + std::to_string(count) + " numbers, " + model + " has " + std::to_string(wanted);

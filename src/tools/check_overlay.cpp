@@ -31,7 +31,7 @@ struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
       image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, print, launch_folder,
       record, bag, plays;
-  int seed = 1;
+  std::uint32_t seed = 1;
 };
 
 tools::OptionList describe(Options& o) {
@@ -83,6 +83,9 @@ std::string given(std::string text) {
 // A vehicle flies that is not in this package's simulation.
 bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
 
+// sim.launch: what the file does not give the scenario does, and checkScenario looks at it.
+bool isSimulated(const Options& o) { return !given(o.defaults).empty(); }
+
 bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty() && o.bag.empty(); }
 
 /// \return width over height of the opening in the reference image; 0: not given
@@ -124,22 +127,6 @@ void checkTransport(const Options& o, const std::string& file, const configurati
   if (!why.empty()) throw InputError(why);
   if (overlay.said.count(key) != 0)
     tools::checkAgrees("image_transport", o.image_transport, file, key, in_file);
-}
-
-void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
-  if (text.empty()) return;
-  const auto size = tools::numbers("window_size", text, 2);
-  estimation::PoseParams& pose = overlay.homography_pose.pose;
-  const auto contradicts = [&](const char* key, double in_file, double given) {
-    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0 &&
-           std::abs(in_file - given) > 1e-9;
-  };
-  if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
-      contradicts("opening_height_m", pose.opening_height_m, size[1])) {
-    tools::warn(formatted("window_size %s overrides %s, which says %g,%g", text.c_str(), file.c_str(),
-                          pose.opening_width_m, pose.opening_height_m));
-  }
-  tools::takeWindowSize("window_size", text, pose);
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -226,37 +213,36 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   if (const char* key = "vehicle/odom_frame"; overlay.said.count(key) != 0)
     faults.collect(
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
-  faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
+  faults.collect([&] { tools::overrideWindowSize(given(o.window_size), file, overlay); });
   if (aspect > 0.0 && (tools::saysOpening(overlay) || !given(o.window_size).empty()))
     tools::checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
   const bool by_argument = !given(o.window_size).empty();
   if (asksForSizes(o))
     faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
-  else if (!by_argument && given(o.defaults).empty())  // sim.launch takes the other side from the scenario
+  else if (!by_argument && !isSimulated(o))
     tools::checkBothSides(overlay);
   if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
     tools::checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
   const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/half_width_m") ||
                                                          tools::says(overlay, "vehicle/half_height_m"));
-  const bool flies = o.fly == "true" && o.needs_window_size != "false";  // sizes that are not a scenario's
-  if (flies || (o.fly.empty() && says_both))
+  if ((o.fly == "true" && !isSimulated(o)) || (o.fly.empty() && says_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
 // Faults of the parameter file are reported where it is loaded.
 void checkScenario(const Options& o, configuration::Overlay& overlay, tools::InputFaults& faults) {
-  const auto scenario = simulation::loadScenario(o.scenario, static_cast<std::uint32_t>(o.seed));
+  const auto scenario = simulation::loadScenario(o.scenario, o.seed);
   if (!tools::InputFaults().collect([&] { overlay = tools::flownIn(scenario, given(o.flown_by)); })) return;
   const std::string other = tools::otherSizes(overlay, scenario);
-  if (!other.empty()) tools::warn(other);
-  if (!other.empty())
-    faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
+  if (other.empty()) return;
+  tools::warn(other);
+  faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
 int printSize(const Options& o) {
-  const auto scenario = simulation::loadScenario(o.scenario, static_cast<std::uint32_t>(o.seed));
+  const auto scenario = simulation::loadScenario(o.scenario, o.seed);
   std::cout << tools::sizeCalled(o.print, tools::flownIn(scenario, given(o.flown_by))) << "\n";
   return 0;
 }

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "evaluation/flights/told_sizes.hpp"
+#include "params_file.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -18,10 +20,10 @@ namespace window_ingress::tools {
 
 inline void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
-const std::vector<const char*> kOpening = {"homography_pose/pose/opening_width_m",
-                                           "homography_pose/pose/opening_height_m"};
-const std::vector<const char*> kBody = {"vehicle/half_length_m", "vehicle/half_width_m",
-                                        "vehicle/half_height_m"};
+inline const std::vector<const char*> kOpening = {"homography_pose/pose/opening_width_m",
+                                                  "homography_pose/pose/opening_height_m"};
+inline const std::vector<const char*> kBody = {"vehicle/half_length_m", "vehicle/half_width_m",
+                                               "vehicle/half_height_m"};
 
 inline bool says(const configuration::Overlay& overlay, const char* key) {
   return overlay.said.count(key) != 0;
@@ -91,6 +93,24 @@ inline void checkAspect(double in_image, const estimation::PoseParams& opening) 
       formatted("the opening, %g x %g m, is %.3g times as wide as it is high, but %.3g times in the "
                 "reference image: measure both sides and check the corners",
                 opening.opening_width_m, opening.opening_height_m, said, in_image));
+}
+
+/// Takes the argument; warns where it overrides the file.
+inline void overrideWindowSize(const std::string& text, const std::string& file,
+                               configuration::Overlay& overlay) {
+  if (text.empty()) return;
+  const auto size = numbers("window_size", text, 2);
+  estimation::PoseParams& pose = overlay.homography_pose.pose;
+  const auto contradicts = [&](const char* key, double in_file, double given) {
+    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0 &&
+           std::abs(in_file - given) > 1e-9;
+  };
+  if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
+      contradicts("opening_height_m", pose.opening_height_m, size[1])) {
+    warn(formatted("window_size %s overrides %s, which says %g,%g", text.c_str(), file.c_str(),
+                   pose.opening_width_m, pose.opening_height_m));
+  }
+  takeWindowSize("window_size", text, pose);
 }
 
 /// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.

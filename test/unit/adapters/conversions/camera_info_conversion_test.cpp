@@ -82,6 +82,8 @@ TEST(CameraInfo, RefusesDOfTheWrongLength) {
 TEST(CameraInfo, RefusesUnknownModelsAndSaysWhichAreKnown) {
   for (const std::string model : {"Equidistant", "", "PLUMB_BOB", "division"})
     EXPECT_TRUE(contains(refusal([&](auto& info) { info.distortion_model = model; }), "plumb_bob")) << model;
+  const auto without_numbers = [](auto& info) { info.distortion_model = "division", info.D.clear(); };
+  EXPECT_TRUE(contains(refusal(without_numbers), "division"));
   EXPECT_TRUE(refusal([](auto& info) { info.distortion_model = "equidistant"; }, true).empty())
       << "rectified images have no model any more";
 }
