@@ -31,7 +31,7 @@ constexpr float kHazeFrom = 40.0F;    ///< haze is possible if the darkest place
 constexpr double kNoHaze = 1e3;
 constexpr double kFarAway = 1.5;   ///< standard deviation of a border from the rough loop [kBorderInward]
 constexpr double kSureEnd = 0.95;  ///< match of a frame's end that predicts the border without an edge
-constexpr double kForetold = 0.8;  ///< score of a border predicted by its frame's end
+constexpr double kPredicted = 0.8;  ///< score of a border predicted by its frame's end
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
 constexpr double kMinChange = 3.0;        ///< least change of the mean colour at a border [grey levels]
 
@@ -148,7 +148,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     beside[2] -= features(bands[kBands - 1])[2];
     const double goes_on = difference(within, beside);
     // Where the frame's end gives the position, a faint border suffices.
-    const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
+    const double visible = framed ? ends * (peak ? 1.0 : kPredicted) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kBorderInward / kFarAway;
     const double border_score = std::exp(-off / kUnlikeScale - 0.5 * away * away) * visible;
     if (border_score > best) best = border_score, border = at;
