@@ -68,7 +68,8 @@ class KinematicPlant {
     velocity_ += step;
     yaw_rate_ += (command.yaw_rate_radps - yaw_rate_) * (kStepSec / params_.lag_sec);
     const double gust = params_.gust_mps * std::sin(0.9 * time_ + params_.seed);
-    carried_mps_ = T_odom_window_.linear().col(1) * gust + pushed_m_.cwiseMin(kPushM).cwiseMax(-kPushM) / kStepSec;
+    carried_mps_ =
+        T_odom_window_.linear().col(1) * gust + pushed_m_.cwiseMin(kPushM).cwiseMax(-kPushM) / kStepSec;
     pushed_m_ -= pushed_m_.cwiseMin(kPushM).cwiseMax(-kPushM);
     position_ += (velocity_ + carried_mps_) * kStepSec;
     yaw_ = geometry::wrapAngle(yaw_ + yaw_rate_ * kStepSec);
