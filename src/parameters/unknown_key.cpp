@@ -85,6 +85,7 @@ bool isConstant(const std::string& path, const Group& group) {
 std::string whatBecameOf(const std::string& path) {
   for (const auto& [end, now] : kMoved)
     if (endsWith(path, end)) return std::string("; it is now ") + now;
+  if (endsWith(path, "camera_pose")) return "; it is an argument of the launch files: camera_pose:=..";
   for (const Group& group : kConstants)
     if (isConstant(path, group)) return "; it is now a constant: remove it";
   return "";

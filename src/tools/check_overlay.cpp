@@ -214,13 +214,11 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
     faults.collect(
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { tools::overrideWindowSize(given(o.window_size), file, overlay); });
-  if (aspect > 0.0 && (tools::saysOpening(overlay) || !given(o.window_size).empty()))
-    tools::checkAspect(aspect, overlay.homography_pose.pose);
+  if (aspect > 0.0 && tools::saysOpening(overlay)) tools::checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
-  const bool by_argument = !given(o.window_size).empty();
   if (asksForSizes(o))
-    faults.collect([&] { tools::checkOpeningIsSaid(by_argument, overlay, o.needs_window_size == "true"); });
-  else if (!by_argument && !isSimulated(o))
+    faults.collect([&] { tools::checkOpeningIsSaid(overlay, o.needs_window_size == "true"); });
+  else if (!isSimulated(o))
     tools::checkBothSides(overlay);
   if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
     tools::checkVehicleIsSaid(overlay);

@@ -45,10 +45,10 @@ inline std::string missing(const configuration::Overlay& overlay, const std::vec
 }
 
 // A drone must not fly with the default window's size.
-inline void checkOpeningIsSaid(bool by_argument, const configuration::Overlay& overlay, bool is_refused) {
+inline void checkOpeningIsSaid(const configuration::Overlay& overlay, bool is_refused) {
   const auto& pose = overlay.homography_pose.pose;
   const bool is_found_out = pose.scale_sigma > 0.0;  // measured in flight
-  if (is_found_out || by_argument || saysOpening(overlay)) return;
+  if (is_found_out || saysOpening(overlay)) return;
   const std::string said = missing(overlay, kOpening, "the opening's size") +
                            ": measure it and give window_size:=W,H [m], or in the file of config:= "
                            "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
@@ -111,6 +111,7 @@ inline void overrideWindowSize(const std::string& text, const std::string& file,
                    pose.opening_width_m, pose.opening_height_m));
   }
   takeWindowSize("window_size", text, pose);
+  overlay.said.insert(kOpening.begin(), kOpening.end());
 }
 
 /// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.
@@ -163,8 +164,9 @@ inline std::string understood(const configuration::Overlay& overlay) {
       formatted("a vehicle of %g x %g x %g m (length, width, height)", 2.0 * vehicle.half_length_m,
                 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m);
   if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
-  return body + formatted(" through %g x %g m: %.2f m free on each side, %.2f m above and below",
+  return body + formatted(" through %g x %g m%s: %.2f m free on each side, %.2f m above and below",
                           pose.opening_width_m, pose.opening_height_m,
+                          saysOpening(overlay) ? "" : " (assumed: no size of the opening is given)",
                           0.5 * pose.opening_width_m - vehicle.half_width_m,
                           0.5 * pose.opening_height_m - vehicle.half_height_m);
 }

@@ -74,6 +74,9 @@ class RefusedStartTest(unittest.TestCase):
     def test_start_at_once_is_refused_outside_lockstep(self):
         self.assertIn("start_at_once", self.errors_of("ingress_navigator", "/ingress_navigator/start_at_once", True))
 
+    def test_a_house_in_front_of_a_vehicle_that_the_world_simulates_itself_is_refused(self):
+        self.assertIn("'vehicle: external'", self.errors_of("world", "/world/start_at", "vehicle"))
+
     def test_unknown_transport_lists_the_known_ones(self):
         errors = self.errors_of("window_detector", "/window_detector/image_transport", "theora_or_so")
         self.assertIn("raw", errors)

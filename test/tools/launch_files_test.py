@@ -203,6 +203,8 @@ def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said
     assert done.returncode == (0 if is_said else 2) and (" is missing: measure it and give window_size" in done.stderr) != is_said, done.stderr
     for arguments in (("--needs-window-size", "true", "--window-size", "1.3,1.1"), ("--needs-window-size", "false")):
         assert run("check_overlay", config, *arguments).returncode == 0
+    assert ("(assumed: " in run("check_overlay", config).stderr) != is_said
+    assert "(assumed: " not in run("check_overlay", config, "--window-size", "1.3,1.1").stderr
 
 
 @pytest.mark.parametrize("vehicle", [{}, {"half_width_m": 0.3, "half_height_m": 0.1}])
@@ -478,7 +480,7 @@ def test_a_size_that_is_not_that_of_the_reference_image_is_said(tmp_path, size, 
     done = run("check_overlay", "--window-size", size, *arguments)
     assert done.returncode == 0
     assert ("but 1.43 times in the reference image: measure both sides" in done.stderr) == is_said
-    assert is_said or "warning" not in done.stderr
+    assert done.stderr.count("warning: ") == 1 + is_said and "the vehicle's size is missing" in done.stderr
 
 
 def test_a_reference_that_is_not_there_is_one_line(tmp_path):

@@ -20,8 +20,13 @@ constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
 
 simulation::Scenario load(const WorldNodeParams& params) {
-  if (params.scenario.empty()) return {};
-  return simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
+  simulation::Scenario scenario;
+  if (!params.scenario.empty())
+    scenario = simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
+  if (params.start_at == "vehicle" && scenario.vehicle.profile != "external")
+    throw InputError("start_at: vehicle needs a scenario with 'vehicle: external', but the scenario " +
+                     params.scenario + " simulates its own vehicle: add that line, or use sim.launch");
+  return scenario;
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ class Flight {
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput output_;
   std::optional<double> started_sec_;
+  std::string refusal_;  // of the start
   bool detected_ = false, was_chosen_ = false;
   std::vector<TrackPoint> track_;
   FlightTiming timing_;
@@ -162,8 +163,11 @@ void Flight::step() {
   input_.target = estimator().target(now_sec);
   const facade::KnownWindow* remembered = estimator().facade().target();
   input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
-  const bool may_start = input_.image_stamp_sec && was_chosen_;
-  if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
+  if (!started_sec_ && input_.image_stamp_sec && was_chosen_) {
+    const Reply reply = navigator_.start(input_, now_sec);
+    if (reply.success) started_sec_ = now_sec;
+    refusal_ = reply.success ? "" : "not started: " + reply.message;
+  }
   output_ = navigator_.step(input_, now_sec);
   estimator().addNavigatorState(output_.report.window_id, output_.report.given_up,
                                 output_.report.next_window);
@@ -247,7 +251,8 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
   if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
   result.reason = verdict.outcome == Outcome::kPassed
                       ? verdict.reason
-                      : verdict.reason + " [" + toString(output_.state) + ": " + output_.reason + "]";
+                      : verdict.reason + " [" + toString(output_.state) + ": " +
+                            (refusal_.empty() ? output_.reason : refusal_) + "]";
   return result;
 }
 

@@ -55,6 +55,10 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
   EXPECT_EQ(error("unheard_of: 1\n"), file_ +
                                           ":1: unheard_of: unknown key; there is vehicle, window_detector, "
                                           "homography_pose, ingress_navigator, setpoint_guard, world");
+  EXPECT_EQ(error("vehicle: {camera_pose: [0.1, 0, 0, 0, 0, 0]}\n"),
+            file_ +
+                ":1: vehicle/camera_pose: unknown key; it is an argument of the launch files: "
+                "camera_pose:=..");
   EXPECT_TRUE(test::says(error("vehicle: {propellers: 4}\n"),
                          "there is half_length_m, half_width_m, half_height_m, "));
 }

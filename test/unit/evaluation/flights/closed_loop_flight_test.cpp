@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "evaluation/flights/flight_results.hpp"
+#include "refusal.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
 
 namespace window_ingress::evaluation::closed_loop_flight_test {
@@ -65,6 +66,18 @@ simulation::Scenario ofArduCopter(const std::string& profile, double off_axis_ra
   scenario.time_limit_sec = 60.0;
   simulation::applyProfile(profile, scenario.vehicle, scenario.odometry);
   return scenario;
+}
+
+TEST(ClosedLoopFlight, AStartThatIsRefusedSaysWhy) {
+  simulation::Scenario scenario = shortFlight();
+  scenario.time_limit_sec = 2.0;
+  FlightParams params;
+  params.without_images = true;
+  params.ingress_navigator.navigator.limits.max_height_m = 0.8;
+  const FlightResult flight = flyOnce(scenario, 1, params);
+  EXPECT_EQ(flight.outcome, Outcome::kTimeout);
+  EXPECT_TRUE(test::says(flight.reason, "not started: ")) << flight.reason;
+  EXPECT_TRUE(test::says(flight.reason, "above limits/max_height_m")) << flight.reason;
 }
 
 TEST(ClosedLoopFlight, ACameraTurnedByTenDegreesIsFoundBesideAHeadingThatIsOff) {
