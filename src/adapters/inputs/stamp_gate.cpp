@@ -22,7 +22,8 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
         age_sec / 86400.0, limits_.max_age_sec);
   if (age_sec > limits_.max_age_sec)
     return formatted("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
-  if (-age_sec > 86400.0 && now_sec <= 0.0) return "the clock has not begun: nothing has come on /clock yet";
+  if (now_sec <= 0.0 && -age_sec > limits_.max_future_sec)
+    return "the clock has not begun: nothing has come on /clock yet";
   if (-age_sec > 86400.0)
     return formatted(
         "stamp is %.0f days ahead of the clock; is use_sim_time set beside a real source? (limit %.2f s)",

@@ -50,6 +50,8 @@ TEST(StampGate, SaysThatSimulatedTimeHasNotBegun) {
   StampGate gate{StampLimits{}};
   EXPECT_EQ(*gate.whyRefused(ros::Time(1700000000.0), 0.0),
             "the clock has not begun: nothing has come on /clock yet");
+  EXPECT_EQ(*gate.whyRefused(ros::Time(100.0), 0.0),
+            "the clock has not begun: nothing has come on /clock yet");
   EXPECT_FALSE(gate.whyRefused(ros::Time(0.05), 0.0)) << "a simulation that begins at zero";
 }
 
