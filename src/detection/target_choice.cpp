@@ -66,18 +66,18 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& candid
       candidate.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
   if (candidate.located) start.knowAll(kLocatedSigmaPx);
   if (candidate.correlation) start.max_stray_px = kAlignedStrayPx;
-  return refinement_.run(view.image, start, view.camera, &inliers);
+  return refineBorders(view.image, start, view.camera, &inliers);
 }
 
 // A hidden side is placed from the borders of the three others.
 std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, const View& view) const {
   BorderStart start{ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx, ring.hidden};
-  auto found = refinement_.run(view.image, start, view.camera);
+  auto found = refineBorders(view.image, start, view.camera);
   if (!found || !ring.hidden) return found;
   const auto whole = reference_.completed(found->corners, *ring.hidden);
   if (!whole) return found;
   start.quad = *whole;
-  return refinement_.run(view.image, start, view.camera);
+  return refineBorders(view.image, start, view.camera);
 }
 
 std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrilateral& place,
@@ -112,7 +112,7 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& candidate, con
   double inliers = 0.0;
   const auto found = refine(candidate, view, inliers);
   if (!found || !showsOpening(candidate, *found, view))
-    return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
+    return Rejection{RejectReason::kRefinement, inliers, kMinBorderInliers};
   fitted = *found;
   if (candidate.correlation && found->seen == kAllSeen)
     if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;

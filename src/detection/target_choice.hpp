@@ -53,13 +53,12 @@ class TargetChoice {
   bool showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found, const View& view) const;
   double leastScore(const ScoredCandidate& candidate) const;
   void record(const ScoredCandidate& candidate, RejectReason reason, double value, double limit) {
-    trace_.candidates.push_back(traceOf(candidate, reason, value, limit));
+    trace_.candidates.push_back(traceOf(candidate, {reason, value, limit}));
   }
 
   DetectorParams params_;
   ReferenceJudge& reference_;
   DetectionTrace& trace_;
-  BorderRefinement refinement_;
   int search_factor_ = 1;
   double ring_there_ = 0.0;
 };

@@ -54,8 +54,7 @@ inline CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std:
   if (!clicked) return noFit("the corners are not a convex quadrilateral");
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kMaxShownPx);
   double on_edge = 0.0;
-  const auto borders =
-      detection::BorderRefinement().run(image, {*clicked, radius_px * scale}, nullptr, &on_edge);
+  const auto borders = detection::refineBorders(image, {*clicked, radius_px * scale}, nullptr, &on_edge);
   if (on_edge < kMinOnEdge)
     return noFit(formatted("only %.0f %% of one side lie on a straight edge near it", 100.0 * on_edge));
   if (!borders) return noFit("the straight edge near one side leads away from its corners");

@@ -13,40 +13,37 @@ using namespace window_ingress::detection;
 /// The stages in the order of the search, each with the results of those before it, on the first image.
 struct Stages {
   explicit Stages(const Sequence& from) : sequence(from), image(from.images.front()) {
-    level = preprocess.run(image);
-    map = edges.run(level.image);
-    segments = lines.run(runs.run(map, lens), map.edges.size());
-    closed = closing.run(map.edges).clone();
+    level = preprocess(image, params.preprocess);
+    map = cannyEdges(level.image, params.edges);
+    segments = lines.run(runs.run(map, nullptr), map.edges.size());
+    dilation_px = closeGaps(map.edges, params.closing, closed);
     rivals = search.run(image, nullptr, trace);
   }
 
   const Sequence& sequence;
   cv::Mat image;
   DetectorParams params;
-  Preprocess preprocess{params.preprocess};
-  CannyEdges edges{params.edges};
-  UndistortionMap lens;
   EdgeChains runs;
   HoughSegments lines{params.lines};
-  EdgeDilation closing{params.closing};
-  ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
   CandidateSearch search{params};
-  BorderRefinement borders;
   SearchLevel level;
   EdgeMap map;
   std::vector<Segment> segments;
   cv::Mat closed;
+  int dilation_px = 0;
   DetectionTrace trace;
   std::vector<ScoredCandidate> rivals;
 };
 
-bool runPreprocess(Stages& s) { return !s.preprocess.run(s.image).image.empty(); }
-bool runEdges(Stages& s) { return !s.edges.run(s.level.image).edges.empty(); }
-bool runLines(Stages& s) { return !s.lines.run(s.runs.run(s.map, s.lens), s.map.edges.size()).empty(); }
-bool runClosing(Stages& s) { return !s.closing.run(s.map.edges).empty(); }
+bool runPreprocess(Stages& s) { return !preprocess(s.image, s.params.preprocess).image.empty(); }
+bool runEdges(Stages& s) { return !cannyEdges(s.level.image, s.params.edges).edges.empty(); }
+bool runLines(Stages& s) { return !s.lines.run(s.runs.run(s.map, nullptr), s.map.edges.size()).empty(); }
+bool runClosing(Stages& s) { return closeGaps(s.map.edges, s.params.closing, s.closed) > 0; }
 bool runContours(Stages& s) {
-  return !s.contours.run(s.closed, s.closing.radiusPx(s.closed.size())).candidates.empty();
+  Outlines outlines;
+  addOutlines(s.closed, s.dilation_px, s.params.contours, CandidateSource::kContour, outlines);
+  return !outlines.candidates.empty();
 }
 bool runSegmentQuads(Stages& s) {
   return !s.quads.run(s.segments, s.params.gates.min_area * s.level.image.size().area(), SegmentQuads::kQuick)
@@ -64,7 +61,7 @@ bool runAppearance(Stages& s) {
 }
 bool runBorders(Stages& s) {
   double inliers = 0.0;
-  return s.borders.run(s.image, {s.rivals.front().quad, 2.5}, s.sequence.cameraOrNull(), &inliers)
+  return refineBorders(s.image, {s.rivals.front().quad, 2.5}, s.sequence.cameraOrNull(), &inliers)
       .has_value();
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -20,8 +19,8 @@ struct SideSigma {
 
 /// The four borders as measured in the full image.
 struct RefinedBorders {
-  geometry::Quadrilateral
-      corners;  ///< intersections of neighbouring borders, canonical order, distorted pixels
+  /// Intersections of neighbouring borders, canonical order, distorted pixels.
+  geometry::Quadrilateral corners;
   std::array<Eigen::Matrix2d, 4> corner_covariance;  ///< [px^2]
   std::array<Edge, 4> edges;
   std::array<bool, 4> fitted = {};  ///< false: not fitted, the side stays where it was known to be
@@ -45,28 +44,16 @@ struct BorderStart {
   void knowAll(double sigma_px);
 };
 
+/// Part of a side's profiles that must lie on its line.
+constexpr double kMinBorderInliers = 0.4;
+
 /// Sub-pixel fit of the four borders on the undilated gradient of the full image; corners are their
 /// intersections. With a camera, points are undistorted (not the image), and borders are straight lines of
-/// the undistorted image. Each side is sampled once, in narrow profiles. One object per thread.
-class BorderRefinement {
- public:
-  static constexpr double kMinInliers = 0.4;  ///< part of a side's profiles that must lie on its line
-
-  BorderRefinement();
-  ~BorderRefinement();
-  BorderRefinement(BorderRefinement&&) noexcept;
-  BorderRefinement& operator=(BorderRefinement&&) noexcept;
-
-  /// \param image CV_8UC1 or CV_8UC3
-  /// \param worst_inliers if not null, gets the worst side's part of profiles on its line, even on failure
-  std::optional<RefinedBorders> run(const cv::Mat& image, const BorderStart& start,
-                                    const geometry::PinholeCamera* camera,
-                                    double* worst_inliers = nullptr) const;
-
-  struct Workspace;
-
- private:
-  std::unique_ptr<Workspace> memory_;
-};
+/// the undistorted image. Each side is sampled once, in narrow profiles.
+/// \param image CV_8UC1 or CV_8UC3
+/// \param worst_inliers if not null, gets the worst side's part of profiles on its line, even on failure
+std::optional<RefinedBorders> refineBorders(const cv::Mat& image, const BorderStart& start,
+                                            const geometry::PinholeCamera* camera,
+                                            double* worst_inliers = nullptr);
 
 }  // namespace window_ingress::detection

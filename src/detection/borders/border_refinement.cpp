@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
@@ -16,160 +15,111 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSamples = 80;  ///< profiles across each side, at most one a pixel
-constexpr double kNominalSide =
-    640.0;                           ///< pixel parameters scale with the image beyond this longer side [px]
-constexpr double kWidePx = 1e3;      ///< no prior
-constexpr double kShortestPx = 4.0;  ///< shortest side that can be fitted [px]
-constexpr double kFrontWithinPx =
-    1.2;  ///< front edge of a reveal: greatest distance from the fitted edge [px]
-constexpr double kLocatedWithinPx =
-    1.6;                         ///< front edge of a reveal: greatest distance from a located start [px]
+constexpr int kSamples = 80;            ///< profiles across each side, at most one a pixel
+constexpr double kNominalSide = 640.0;  ///< pixel parameters scale with longer sides of the image beyond [px]
+constexpr double kWidePx = 1e3;         ///< no prior
+constexpr double kShortestPx = 4.0;     ///< shortest side that can be fitted [px]
+/// Front edge of a reveal: greatest distance from the fitted edge, and from a located start [px].
+constexpr double kFrontWithinPx = 1.2, kLocatedWithinPx = 1.6;
 constexpr double kWider = 1.8;   ///< factor of the reach where a located border is not within it
 constexpr double kTurned = 2.5;  ///< factor of the reach for line ends, where most of a side is visible
 constexpr double kMaxInliers = 0.7;
 constexpr double kKnownSigmas = 3.0;
 constexpr double kContradiction = 13.8;  ///< 99.9 % quantile of chi-squared with two degrees of freedom
 
-}  // namespace
-
-/// Buffers of one object, reused for each side.
-struct BorderRefinement::Workspace {
-  EdgeProfiles profiles;
-  SubpixelBorder fit;
-};
-
-namespace {
-
 /// Fits one side: samples its profiles once and derives everything from them.
-class Side {
- public:
-  Side(BorderRefinement::Workspace& memory, const SubpixelBorderLimits& limits, const BorderStart& start,
-       int side, double pixel)
-      : memory_(memory),
-        limits_(limits),
-        start_(start),
-        known_{start.known[side].px / pixel, start.known[side].rad / pixel},
-        is_hidden_(start.hidden == side) {}
+struct FittedSide {
+  const cv::Mat& image;
+  const geometry::PinholeCamera* lens;
+  const BorderStart& start;
+  const int side;
+  const Vector2d from, to;  ///< ends of the side, undistorted
+  const double pixel = pixelAcross(lens, from, to);
+  const SideSigma known{start.known[side].px / pixel, start.known[side].rad / pixel};  ///< [profiles' pixels]
+  const bool is_hidden = start.hidden == side;
+  EdgeProfiles profiles{};
+  SubpixelBorder subpixel{};
+  FittedBorder border{};
+  bool shows_edge = false, fitted = false, seen = false;
+  double inliers = 0.0;  ///< part of the profiles on the line
 
-  bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
-    return run(image, lens, a, b, reach());
-  }
-  // Second try where no edge lies near the start. Accepts a border further away if most of it is visible.
-  void runWider(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a,
-                const Vector2d& b) {
-    if (shows_edge_ || is_hidden_) return;
-    border_ = FittedBorder();
-    const bool found = run(image, lens, a, b, kWider * reach());
-    seen_ = seen_ && inliers_ > kMaxInliers;
-    fitted_ = found && seen_;
-  }
-  bool fitted() const { return fitted_; }
-  bool seen() const { return seen_; }
-  double inliers() const { return inliers_; }
-  Line line() const { return border_.inImage(memory_.profiles); }
-  // The start, as the result.
-  Line start() const {
-    FittedBorder border;
-    border.from = -0.5 * memory_.profiles.length(), border.to = -border.from;
-    border.sigma_px = known_.px, border.sigma_rad = known_.rad;
-    return border.inImage(memory_.profiles);
-  }
-  // Ends of the visible stretch on the line, or those of the start.
-  std::pair<Vector2d, Vector2d> ends() const {
-    const auto& p = memory_.profiles;
-    const double half = 0.5 * p.length();
-    if (!fitted_) return {p.point(-half, 0.0), p.point(half, 0.0)};
-    return {p.point(border_.from, border_.line.at(border_.from)),
-            p.point(border_.to, border_.line.at(border_.to))};
+  // A known side without a border stays at its start. Returns false if an unknown one has none.
+  bool run() {
+    const double reach_px =
+        known.known() ? std::min(start.radius_px, kKnownSigmas * known.px + 1.0) : start.radius_px;
+    fitted = fitWithin(reach_px);
+    if (!fitted && !known.known()) return false;
+    if (!fitted && !shows_edge && !is_hidden) {  // accepts one further away if most of it is visible
+      border = {};
+      const bool found = fitWithin(kWider * reach_px);
+      seen = seen && inliers > kMaxInliers;
+      fitted = found && seen;
+    }
+    const double half = 0.5 * profiles.length();
+    if (!fitted) border = {{}, -half, half, known.px, known.rad};
+    return true;
   }
 
- private:
-  bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b,
-           double radius_px) {
-    const int radius = static_cast<int>(std::ceil(radius_px));
-    const int reach = radius + static_cast<int>(std::ceil(limits_.radius_px)) + 2;
-    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * kEndMargin)), 4, kSamples);
-    memory_.profiles.sample(image, lens, {a, b, count_, kEndMargin, reach});
-    shows_edge_ = memory_.fit.projectStrongest(memory_.profiles, radius_px);
-    if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
-    if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > reachOf(radius_px)) return false;
-    toFront();
-    seen_ = stray() <= start_.max_stray_px && !is_hidden_;
-    fitted_ = seen_ && agrees();
-    if (fitted_ && known_.known()) average();
-    return fitted_;
+  bool fitWithin(double radius_px) {
+    const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
+    const double last_px = scale * SubpixelBorderLimits().radius_px,
+                 outlier_px = scale * SubpixelBorderLimits().outlier_px;
+    const int reach = static_cast<int>(std::ceil(radius_px)) + static_cast<int>(std::ceil(last_px)) + 2;
+    const int count =
+        std::clamp(static_cast<int>((to - from).norm() * (1.0 - 2.0 * kEndMargin)), 4, kSamples);
+    profiles.sample(image, lens, {from, to, count, kEndMargin, reach});
+    shows_edge = subpixel.projectStrongest(profiles, radius_px);
+    if (!fit({radius_px, 0.6 * radius_px, std::max(outlier_px, 0.35 * radius_px)})) return false;
+    if (!fit({last_px, kWidePx, outlier_px})) return false;
+    // A located start may be rotated, so a line visible along nearly all of a side may deviate further.
+    const bool is_turned = known.known() && inliers > kMaxInliers;
+    if (stray() > (is_turned ? kTurned * radius_px : radius_px)) return false;
+    // A located start gives the position of the front edge; any other start only that of an edge near it.
+    const double within = known.known() ? kLocatedWithinPx : kFrontWithinPx;
+    const double off = known.known() ? border.line.at(border.middle()) : 0.0;
+    subpixel.toFront({-within - off, within - off}, border);
+    seen = stray() <= start.max_stray_px && !is_hidden;
+    return seen && (!known.known() || average());
   }
 
-  double reach() const {
-    return known_.known() ? std::min(start_.radius_px, kKnownSigmas * known_.px + 1.0) : start_.radius_px;
-  }
-
-  // Tests the Mahalanobis distance between the prior of a side and its fit.
-  bool agrees() const {
-    if (!known_.known()) return true;
-    const Eigen::Matrix2d both = knownInformation().inverse() + fittedInformation().inverse();
-    const Vector2d apart(border_.line.offset, border_.line.slope);
-    return apart.dot(both.ldlt().solve(apart)) < kContradiction;
-  }
-
-  // Information matrices of offset and slope at the middle of the side.
-  Eigen::Matrix2d knownInformation() const {
-    return Vector2d(1.0 / (known_.px * known_.px), 1.0 / (known_.rad * known_.rad)).asDiagonal();
-  }
-  Eigen::Matrix2d fittedInformation() const {
-    const double at = border_.middle(), across = 1.0 / (border_.sigma_px * border_.sigma_px);
-    Eigen::Matrix2d information;
-    information << across, at * across, at * across,
-        at * at * across + 1.0 / (border_.sigma_rad * border_.sigma_rad);
-    return information;
-  }
-
-  void average() {
-    const Eigen::Matrix2d fitted = fittedInformation(), covariance = (knownInformation() + fitted).inverse();
-    const Vector2d line = covariance * fitted * Vector2d(border_.line.offset, border_.line.slope);
-    const Vector2d middle(1.0, border_.middle());
-    border_.line = {line.x(), line.y()};
-    border_.sigma_px = std::sqrt(middle.dot(covariance * middle));
-    border_.sigma_rad = std::sqrt(covariance(1, 1));
-  }
-
-  // A located start may be rotated. A line visible along nearly all of a side may therefore deviate further.
-  double reachOf(double radius_px) const {
-    return known_.known() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
-  }
-
-  // A located start gives the position of the front edge; any other start only that of an edge near it.
-  void toFront() {
-    const double from = border_.line.at(border_.middle());
-    const double near = kFrontWithinPx, wide = kLocatedWithinPx;
-    memory_.fit.toFront(
-        known_.known() ? TwoStepEdgeLimits{-wide - from, wide - from} : TwoStepEdgeLimits{-near, near},
-        border_);
+  bool fit(const SubpixelBorderLimits& limits) {
+    inliers = 0.0;
+    if (!subpixel.run(limits, border)) return false;
+    inliers = static_cast<double>(border.inliers) / profiles.count();
+    return inliers >= kMinBorderInliers;
   }
 
   // How far an end of the fitted line is from the start.
   double stray() const {
-    const double half = 0.5 * memory_.profiles.length();
-    return std::max(std::abs(border_.line.at(-half)), std::abs(border_.line.at(half)));
+    const double half = 0.5 * profiles.length();
+    return std::max(std::abs(border.line.at(-half)), std::abs(border.line.at(half)));
   }
 
-  bool fit(const SubpixelBorderLimits& limits) {
-    inliers_ = 0.0;
-    if (!memory_.fit.run(limits, border_)) return false;
-    inliers_ = static_cast<double>(border_.inliers) / count_;
-    return inliers_ >= BorderRefinement::kMinInliers;
+  // Averages the fit with what is known of the side, by their information on offset and slope at its middle.
+  // False, and nothing changed, if their Mahalanobis distance shows a contradiction.
+  bool average() {
+    const Eigen::Matrix2d knowledge =
+        Vector2d(1.0 / (known.px * known.px), 1.0 / (known.rad * known.rad)).asDiagonal();
+    const double at = border.middle(), across = 1.0 / (border.sigma_px * border.sigma_px);
+    Eigen::Matrix2d measured;
+    measured << across, at * across, at * across,
+        at * at * across + 1.0 / (border.sigma_rad * border.sigma_rad);
+    const Vector2d line(border.line.offset, border.line.slope), middle(1.0, at);
+    const Eigen::Matrix2d both = knowledge.inverse() + measured.inverse();
+    if (!(line.dot(both.ldlt().solve(line)) < kContradiction)) return false;
+    const Eigen::Matrix2d covariance = (knowledge + measured).inverse();
+    const Vector2d averaged = covariance * measured * line;
+    border.line = {averaged.x(), averaged.y()};
+    border.sigma_px = std::sqrt(middle.dot(covariance * middle));
+    border.sigma_rad = std::sqrt(covariance(1, 1));
+    return true;
   }
 
-  BorderRefinement::Workspace& memory_;
-  const SubpixelBorderLimits& limits_;  // of the last pass, for this image's size
-  const BorderStart& start_;
-  const SideSigma known_;  // in the profiles' pixels
-  const bool is_hidden_;
-  int count_ = 0;
-  FittedBorder border_;
-  bool shows_edge_ = false, fitted_ = false, seen_ = false;
-  double inliers_ = 0.0;
+  Line line() const { return border.inImage(profiles); }
+  Edge edge() const {
+    return edgeThroughLens(line(), profiles.point(border.from, border.line.at(border.from)),
+                           profiles.point(border.to, border.line.at(border.to)), lens);
+  }
 };
 
 // Restores canonical order: a corner may have become the first by a fraction of a pixel.
@@ -206,42 +156,28 @@ void BorderStart::knowAll(double sigma_px) {
     known[i] = {sigma_px, sigma_px * std::sqrt(12.0) / std::max(1.0, (quad[(i + 1) % 4] - quad[i]).norm())};
 }
 
-BorderRefinement::BorderRefinement() : memory_(std::make_unique<Workspace>()) {}
-BorderRefinement::~BorderRefinement() = default;
-BorderRefinement::BorderRefinement(BorderRefinement&&) noexcept = default;
-BorderRefinement& BorderRefinement::operator=(BorderRefinement&&) noexcept = default;
-
-std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const BorderStart& start,
-                                                    const geometry::PinholeCamera* camera,
-                                                    double* worst_inliers) const {
-  SubpixelBorderLimits limits;
-  const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
-  limits.radius_px *= scale;
-  limits.outlier_px *= scale;
+std::optional<RefinedBorders> refineBorders(const cv::Mat& image, const BorderStart& start,
+                                            const geometry::PinholeCamera* camera, double* worst_inliers) {
   const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  const geometry::Quadrilateral quad = geometry::undistorted(start.quad, lens);
   std::array<Line, 4> lines;
   RefinedBorders borders;
-  double worst = 1.0;
   borders.known = start.known;
-  bool good = true;
-  for (int i = 0; i < 4 && good; ++i) {
-    const Vector2d& from = start.quad[i];
-    const Vector2d& to = start.quad[(i + 1) % 4];
-    const Vector2d a = lens ? lens->undistort(from) : from, b = lens ? lens->undistort(to) : to;
-    good = (b - a).norm() > kShortestPx;
-    if (!good) break;
-    Side side(*memory_, limits, start, i, pixelAcross(lens, a, b));
-    good = side.run(image, lens, a, b) || start.known[i].known();
-    if (good && !side.fitted()) side.runWider(image, lens, a, b);
-    worst = std::min(worst, side.inliers());
-    borders.seen += side.seen();
-    borders.fitted[i] = side.fitted();
-    lines[i] = side.fitted() ? side.line() : side.start();
-    const auto [begin, end] = side.ends();
-    borders.edges[i] = edgeThroughLens(lines[i], begin, end, lens);
+  double ignored = 1.0, &worst = worst_inliers ? *worst_inliers : ignored;
+  worst = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d &from = quad[i], &to = quad[(i + 1) % 4];
+    if (!((to - from).norm() > kShortestPx)) return std::nullopt;
+    FittedSide side{image, lens, start, i, from, to};
+    const bool found = side.run();
+    worst = std::min(worst, side.inliers);
+    if (!found) return std::nullopt;
+    borders.seen += side.seen;
+    borders.fitted[i] = side.fitted;
+    lines[i] = side.line();
+    borders.edges[i] = side.edge();
   }
-  if (worst_inliers) *worst_inliers = worst;
-  if (!good || !finish(lines, lens, borders)) return std::nullopt;
+  if (!finish(lines, lens, borders)) return std::nullopt;
   return borders;
 }
 

@@ -37,56 +37,44 @@ Vector2d clamped(const cv::Mat& image, const Vector2d& p) {
   return p.cwiseMax(0.0).cwiseMin(Vector2d(image.cols - 1.001, image.rows - 1.001));
 }
 
-/// Reads single pixels, bilinearly interpolated or the nearest one.
-template <int kChannels, bool kRough>
-class ProfileReader {
- public:
-  ProfileReader(const cv::Mat& image, int stride) : data_(image.data), row_(image.step[0]), stride_(stride) {}
-
-  void operator()(const Vector2d& p, float* out) const {
-    const float x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
-    if (kRough) {
-      const uchar* at = pixel(static_cast<int>(x + 0.5f), static_cast<int>(y + 0.5f));
-      for (int c = 0; c < kChannels; ++c) out[c * stride_] = at[c];
-      return;
-    }
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row), uv = u * v;
-    const uchar *top = pixel(column, row), *bottom = top + row_;
-    for (int c = 0; c < kChannels; ++c)
-      out[c * stride_] = (1.0f - u - v + uv) * top[c] + (u - uv) * top[c + kChannels] + (v - uv) * bottom[c] +
-                         uv * bottom[c + kChannels];
+/// Reads one pixel, bilinearly interpolated or, if rough, the nearest one; channels `stride` apart.
+template <int kChannels>
+void read(const cv::Mat& image, const Vector2d& p, bool rough, int stride, float* out) {
+  const float x = static_cast<float>(p.x()), y = static_cast<float>(p.y()), half = rough ? 0.5f : 0.0f;
+  const int column = static_cast<int>(x + half), row = static_cast<int>(y + half);
+  const uchar* top = image.ptr(row) + column * kChannels;
+  if (rough) {
+    for (int c = 0; c < kChannels; ++c) out[c * stride] = top[c];
+    return;
   }
+  const float u = x - static_cast<float>(column), v = y - static_cast<float>(row), uv = u * v;
+  const uchar* bottom = top + image.step[0];
+  for (int c = 0; c < kChannels; ++c)
+    out[c * stride] = (1.0f - u - v + uv) * top[c] + (u - uv) * top[c + kChannels] + (v - uv) * bottom[c] +
+                      uv * bottom[c + kChannels];
+}
 
- private:
-  const uchar* pixel(int column, int row) const { return data_ + row * row_ + column * kChannels; }
-
-  const uchar* data_;
-  std::size_t row_;
-  int stride_;
-};
-
-const Eigen::Vector3f kBrightness(0.114f, 0.587f, 0.299f);
+const Eigen::Vector3f kBrightness(0.114f, 0.587f, 0.299f);  // BGR, ITU-R BT.601
 constexpr double kSoftRatio = 0.45;  // ratio of squared differences for an edge blurred by one pixel
 constexpr double kMinColour = 0.5;   // mean square of first differences that counts as colour
 constexpr float kTrusted = 0.35f;    // weight of a change of colour relative to one of brightness
 
 }  // namespace
 
-template <int kChannels, bool kRough>
-void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
-  const ProfileReader<kChannels, kRough> read(image, width());
+template <int kChannels>
+void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens, bool rough) {
   for (int i = 0; i < count_; ++i) {
     const Path path(point(position_[i], 0.0), pixel_ * normal_, reach_, lens);
     inside_[i] = isInside(image, path.at, kMarginPx);
     if (!inside_[i]) continue;
     ++inside_count_;
-    const bool whole = isInside(image, path(-reach_), kMarginPx) && isInside(image, path(reach_), kMarginPx);
     float* out = values_.data() + static_cast<std::size_t>(i) * kChannels * width();
-    if (whole && !lens)
-      for (int o = -reach_; o <= reach_; ++o, ++out) read(path.at + o * path.slope, out);
-    else
-      for (int o = -reach_; o <= reach_; ++o, ++out) read(clamped(image, path(o)), out);
+    const bool is_simple =
+        !lens && isInside(image, path(-reach_), kMarginPx) && isInside(image, path(reach_), kMarginPx);
+    for (int o = -reach_; o <= reach_; ++o, ++out) {
+      const Vector2d p = is_simple ? Vector2d(path.at + o * path.slope) : clamped(image, path(o));
+      read<kChannels>(image, p, rough, width(), out);
+    }
   }
 }
 
@@ -111,30 +99,27 @@ void EdgeProfiles::sample(const cv::Mat& image, const geometry::PinholeCamera* l
   inside_.assign(count_, 0);
   for (int i = 0; i < count_; ++i)
     position_[i] = length_ * (-0.5 + grid.end_margin + (1.0 - 2.0 * grid.end_margin) * (i + 0.5) / count_);
-  if (channels_ == 1)
-    grid.rough ? fill<1, true>(image, lens) : fill<1, false>(image, lens);
-  else
-    grid.rough ? fill<3, true>(image, lens) : fill<3, false>(image, lens);
+  channels_ == 1 ? fill<1>(image, lens, grid.rough) : fill<3>(image, lens, grid.rough);
 }
 
 int EdgeProfiles::mean(int first, int last, float* out) const {
   const int size = channels_ * width();
-  std::fill(out, out + size, 0.0f);
+  Eigen::Map<Eigen::VectorXf> mean(out, size);
+  mean.setZero();
   int count = 0;
   for (int i = first; i < last; ++i) {
     if (!inside(i)) continue;
-    const float* in = samples(i, 0);
-    for (int k = 0; k < size; ++k) out[k] += in[k];
+    mean += Eigen::Map<const Eigen::VectorXf>(samples(i, 0), size);
     ++count;
   }
-  const float scale = 1.0f / static_cast<float>(std::max(1, count));
-  for (int k = 0; k < size; ++k) out[k] *= scale;
+  mean *= 1.0f / static_cast<float>(std::max(1, count));
   return count;
 }
 
 int EdgeProfiles::meanAlong(const OffsetLine& line, int half, float* out) const {
   const int size = 2 * half + 1;
-  std::fill(out, out + channels_ * size, 0.0f);
+  Eigen::Map<Eigen::VectorXf> mean(out, channels_ * size);
+  mean.setZero();
   int count = 0;
   for (int i = 0; i < count_; ++i) {
     const double offset = line.at(position_[i]);
@@ -143,16 +128,14 @@ int EdgeProfiles::meanAlong(const OffsetLine& line, int half, float* out) const 
     const float part = static_cast<float>(offset - whole);
     for (int c = 0; c < channels_; ++c) {
       const float* v = samples(i, c) + reach_ + whole - half;
-      for (int k = 0; k < size; ++k) out[c * size + k] += v[k] + part * (v[k + 1] - v[k]);
+      const Eigen::Map<const Eigen::VectorXf> low(v, size), high(v + 1, size);
+      mean.segment(c * size, size) += low + part * (high - low);
     }
     ++count;
   }
-  const float scale = 1.0f / static_cast<float>(std::max(1, count));
-  for (int k = 0; k < channels_ * size; ++k) out[k] *= scale;
+  mean *= 1.0f / static_cast<float>(std::max(1, count));
   return count;
 }
-
-float brightnessOf(const Eigen::Vector3f& bgr) { return kBrightness.dot(bgr); }
 
 bool isColourSoft(const EdgeProfiles& profiles) {
   if (profiles.channels() != 3) return false;
@@ -176,7 +159,7 @@ bool isColourSoft(const EdgeProfiles& profiles) {
 }
 
 Eigen::Vector3f resolvedPart(const Eigen::Vector3f& change) {
-  const Eigen::Vector3f brightness = Eigen::Vector3f::Constant(brightnessOf(change));
+  const Eigen::Vector3f brightness = Eigen::Vector3f::Constant(kBrightness.dot(change));
   return brightness + kTrusted * (change - brightness);
 }
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "detection/borders/robust_line_fit.hpp"
+#include "detection/borders/lines.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
@@ -70,8 +70,8 @@ class EdgeProfiles {
   int meanAlong(const OffsetLine& line, int half, float* out) const;
 
  private:
-  template <int kChannels, bool kRough>
-  void fill(const cv::Mat& image, const geometry::PinholeCamera* lens);
+  template <int kChannels>
+  void fill(const cv::Mat& image, const geometry::PinholeCamera* lens, bool rough);
 
   int count_ = 0, reach_ = 0, channels_ = 1, inside_count_ = 0;
   double length_ = 0.0, pixel_ = 1.0;
@@ -83,9 +83,6 @@ class EdgeProfiles {
 
 /// Many images store colour at half resolution (JPEG, most video, cameras with a Bayer pattern). Brightness
 /// then locates an edge to a pixel or better, while colour may be off by a pixel.
-
-/// Brightness of a colour or a change of it, BGR (ITU-R BT.601).
-float brightnessOf(const Eigen::Vector3f& bgr);
 
 /// True if the profiles have colour softer than a one-pixel blur, by the ratio of squared second to squared
 /// first differences: 1 / (2 sigma^2) for an edge, 3 for noise.

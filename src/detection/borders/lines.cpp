@@ -1,6 +1,7 @@
 #include "detection/borders/lines.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace window_ingress::detection {
@@ -10,13 +11,52 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kMinSine = 0.1;  // of the angle between borders that meet
+constexpr int kRobustPasses = 8;
+constexpr double kSettledPx = 1e-5;
 
 double varianceAt(const Line& line, const Vector2d& point) {
   const double lever = line.sigma_rad * (point - line.point).norm();
   return line.sigma_px * line.sigma_px + lever * lever;
 }
 
+double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
+
+// Weighted least squares; false if the weights leave nothing to solve.
+bool solveLine(const std::vector<double>& positions, const std::vector<double>& offsets,
+               const Eigen::ArrayXd& weights, OffsetLine& line) {
+  double w = 0, ws = 0, wd = 0, wss = 0, wsd = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double weight = weights[static_cast<Eigen::Index>(i)], s = positions[i], d = offsets[i];
+    w += weight, ws += weight * s, wd += weight * d, wss += weight * s * s, wsd += weight * s * d;
+  }
+  if (!(w > 0.0)) return false;
+  const double mean = ws / w, spread = wss - ws * mean;
+  if (!(spread > 1e-9 * w)) return false;
+  line.slope = (wsd - wd * mean) / spread;
+  line.offset = wd / w - line.slope * mean;
+  return true;
+}
+
 }  // namespace
+
+void fitRobustLine(const std::vector<double>& positions, const std::vector<double>& offsets, double scale_px,
+                   OffsetLine& line) {
+  if (positions.size() < 2) return;
+  const auto size = static_cast<Eigen::Index>(positions.size());
+  const Eigen::Map<const Eigen::ArrayXd> s(positions.data(), size), d(offsets.data(), size);
+  const double reach = std::max(std::abs(positions.front()), std::abs(positions.back()));
+  // The first weights are about the points' median, because all points may lie a little off the start.
+  Eigen::ArrayXd weights = d - (line.offset + line.slope * s), sorted = weights;
+  std::nth_element(sorted.data(), sorted.data() + size / 2, sorted.data() + size);
+  weights = ((weights - sorted[size / 2]) / (6.0 * scale_px)).unaryExpr(&bisquare) + 1e-3;
+  for (int pass = 0; pass < kRobustPasses; ++pass) {
+    const OffsetLine before = line;
+    if (!solveLine(positions, offsets, weights, line)) return;
+    const double moved = std::abs(line.offset - before.offset) + reach * std::abs(line.slope - before.slope);
+    if (pass > 1 && moved < kSettledPx) return;
+    weights = ((d - (line.offset + line.slope * s)) / (3.0 * scale_px)).unaryExpr(&bisquare);
+  }
+}
 
 std::optional<LineCorner> meet(const Line& a, const Line& b) {
   Matrix2d normals;

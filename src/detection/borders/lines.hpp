@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -18,6 +19,19 @@ struct Line {
   /// Signed distance of a point [px].
   double distance(const Eigen::Vector2d& p) const { return normal.dot(p - point); }
 };
+
+/// A line near an axis: offset from it at a position along it.
+struct OffsetLine {
+  double offset = 0.0;  ///< at position 0 [px]
+  double slope = 0.0;   ///< [px per px]
+  double at(double position) const { return offset + slope * position; }
+};
+
+/// Fits the line to points near it: reweighted least squares with Tukey's bisquare. Points further off than
+/// three times `scale_px` do not count in the end. With fewer than two points the line does not change.
+/// \param positions of the points, in their order along the line \param offsets as many
+void fitRobustLine(const std::vector<double>& positions, const std::vector<double>& offsets, double scale_px,
+                   OffsetLine& line);
 
 /// A point of the image and its covariance.
 struct LineCorner {

@@ -12,8 +12,7 @@ namespace {
 constexpr float kFaintest = 0.5f;        // least slope of an edge [grey levels per pixel]
 constexpr float kFaintestChange = 3.0f;  // least change of the mean colour over two pixels [grey levels]
 constexpr int kMinProfiles = 4;
-constexpr double kSigmaFloorPx = 0.03;  // least standard deviation of a border
-constexpr int kNoPeak = 1 << 20;
+constexpr double kSigmaFloorPx = 0.03;     // least standard deviation of a border
 constexpr double kCorrelationPx = 1.5;     // profiles closer together than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
 
@@ -42,8 +41,6 @@ void SubpixelBorder::project(const EdgeProfiles& profiles, const Eigen::Vector3f
   const int width = profiles.width(), channels = profiles.channels();
   const Eigen::Vector3f weights = 0.5f * (channels == 1 ? Eigen::Vector3f(colour.sum(), 0, 0) : colour);
   slopes_.assign(static_cast<std::size_t>(profiles.count()) * width, 0.0f);
-  peak_at_.assign(profiles.count(), kNoPeak);
-  peak_.resize(profiles.count());
   for (int i = 0; i < profiles.count(); ++i) {
     if (!profiles.inside(i)) continue;
     float* out = slopes_.data() + static_cast<std::size_t>(i) * width;
@@ -56,28 +53,27 @@ void SubpixelBorder::project(const EdgeProfiles& profiles, const Eigen::Vector3f
 
 bool SubpixelBorder::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
   const int radius = static_cast<int>(std::ceil(radius_px)), width = profiles.width();
-  mean_.resize(static_cast<std::size_t>(3) * width);
-  profiles.mean(0, profiles.count(), mean_.data());
+  std::vector<float> mean(static_cast<std::size_t>(3) * width), sizes;
+  std::vector<Eigen::Vector3f> changes;  // of the mean colour over two pixels, by offset
+  profiles.mean(0, profiles.count(), mean.data());
   const bool soft = isColourSoft(profiles);
-  changes_.clear();
-  sizes_.clear();
   int strongest = radius;
   double most = 0.0;
   for (int o = -radius; o <= radius; ++o) {
     Eigen::Vector3f change;
     for (int c = 0; c < 3; ++c) {
-      const float* at = mean_.data() + (profiles.channels() == 1 ? 0 : c) * width + profiles.reach() + o;
+      const float* at = mean.data() + (profiles.channels() == 1 ? 0 : c) * width + profiles.reach() + o;
       change[c] = at[1] - at[-1];
     }
-    changes_.push_back(soft ? resolvedPart(change) : change);
-    sizes_.push_back(changes_.back().norm());
-    const double weight = sizes_.back() * std::exp(-0.5 * std::pow(o / (0.6 * radius_px), 2));
+    changes.push_back(soft ? resolvedPart(change) : change);
+    sizes.push_back(changes.back().norm());
+    const double weight = sizes.back() * std::exp(-0.5 * std::pow(o / (0.6 * radius_px), 2));
     if (weight > most) most = weight, strongest = o + radius;
   }
-  project(profiles, most > 0.0 ? Eigen::Vector3f(changes_[strongest] / sizes_[strongest])
+  project(profiles, most > 0.0 ? Eigen::Vector3f(changes[strongest] / sizes[strongest])
                                : Eigen::Vector3f::Constant(1.0f / std::sqrt(3.0f)));
-  for (std::size_t k = 1; k + 1 < sizes_.size(); ++k)
-    if (sizes_[k] > kFaintestChange && sizes_[k] >= sizes_[k - 1] && sizes_[k] >= sizes_[k + 1]) return true;
+  for (std::size_t k = 1; k + 1 < sizes.size(); ++k)
+    if (sizes[k] > kFaintestChange && sizes[k] >= sizes[k - 1] && sizes[k] >= sizes[k + 1]) return true;
   return false;
 }
 
@@ -109,13 +105,9 @@ void SubpixelBorder::measure(const OffsetLine& about, const SubpixelBorderLimits
     if (!profiles_->inside(i)) continue;
     const auto at = steepest(i, about.at(profiles_->position(i)), limits);
     if (!at) continue;
-    if (peak_at_[i] != *at) {
-      const float* slope = slopesOf(i);
-      peak_at_[i] = *at;
-      peak_[i] = *at + peak(slope[*at - 1], slope[*at], slope[*at + 1]);
-    }
+    const float* slope = slopesOf(i) + *at;
     positions_.push_back(profiles_->position(i));
-    offsets_.push_back(peak_[i]);
+    offsets_.push_back(*at + peak(slope[-1], slope[0], slope[1]));
   }
 }
 
@@ -149,12 +141,10 @@ void SubpixelBorder::toFront(const TwoStepEdgeLimits& limits, FittedBorder& bord
 
 bool SubpixelBorder::run(const SubpixelBorderLimits& limits, FittedBorder& border) {
   measure(border.line, limits);
-  const int count = static_cast<int>(positions_.size());
-  if (count < 4) return false;
-  scratch_.resize(2 * positions_.size());
-  fitRobustLine({positions_.data(), offsets_.data(), scratch_.data(), count}, limits.outlier_px, border.line);
+  if (positions_.size() < kMinProfiles) return false;
+  fitRobustLine(positions_, offsets_, limits.outlier_px, border.line);
   spread(limits, border);
-  return border.inliers >= 4;
+  return border.inliers >= kMinProfiles;
 }
 
 }  // namespace window_ingress::detection

@@ -6,7 +6,6 @@
 
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
-#include "detection/borders/robust_line_fit.hpp"
 #include "detection/borders/two_step_edge.hpp"
 
 namespace window_ingress::detection {
@@ -64,11 +63,7 @@ class SubpixelBorder {
 
   const EdgeProfiles* profiles_ = nullptr;
   std::vector<float> slopes_;  // of the projected profiles [grey levels per pixel]
-  std::vector<int> peak_at_;   // by profile: sample of the edge, and its offset
-  std::vector<double> peak_, positions_, offsets_, scratch_;
-  std::vector<float> mean_;               // of all profiles, channel by channel
-  std::vector<Eigen::Vector3f> changes_;  // of the mean colour over two pixels, by offset
-  std::vector<float> sizes_;              // of the changes
+  std::vector<double> positions_, offsets_;
 };
 
 }  // namespace window_ingress::detection

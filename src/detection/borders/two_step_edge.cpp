@@ -8,12 +8,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "detection/borders/two_step_edge.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
 constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of an image, and its spread [px]
 constexpr double kSoftest = 2.0;                        // blur up to which an edge may be two [px]
-constexpr double kMinBlur = 0.35, kMinApart = 0.15, kMaxApart = 4.5;
+constexpr double kMinBlur = 0.35, kMaxBlur = 3.0, kMinApart = 0.15, kMaxApart = 4.5;  // of a fit [px]
 constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
 constexpr double kModelNoise = 0.003;  // model error of a blurred step, relative to its change
 constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // limits of a reveal's colour
@@ -32,73 +34,59 @@ using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxEd
 using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRests, 1>;
 using RestSlopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
 
-/// The cumulative normal distribution, from a table.
-class Step {
- public:
-  Step() {
-    for (int i = 0; i <= kSize; ++i) values_[i] = 0.5 * std::erfc(-(kFrom + i / kPerUnit) * M_SQRT1_2);
-  }
-  double operator()(double z) const {
-    const double place = std::clamp((z - kFrom) * kPerUnit, 0.0, kSize - 1.0);
-    const int i = static_cast<int>(place);
-    return values_[i] + (place - i) * (values_[i + 1] - values_[i]);
-  }
-
- private:
-  static constexpr double kFrom = -4.0, kPerUnit = 128.0;
-  static constexpr int kSize = 1024;
-  std::array<double, kSize + 1> values_;
-};
-
+// The cumulative normal distribution, from a table.
 double step(double z) {
-  static const Step table;
-  return table(z);
+  constexpr double kFrom = -4.0, kPerUnit = 128.0;
+  constexpr int kSize = 1024;
+  static const std::array<double, kSize + 1> values = [] {
+    std::array<double, kSize + 1> made;
+    for (int i = 0; i <= kSize; ++i) made[i] = 0.5 * std::erfc(-(kFrom + i / kPerUnit) * M_SQRT1_2);
+    return made;
+  }();
+  const double place = std::clamp((z - kFrom) * kPerUnit, 0.0, kSize - 1.0);
+  const int i = static_cast<int>(place);
+  return values[i] + (place - i) * (values[i + 1] - values[i]);
 }
 
 /// Models the colours between two offsets as one step or two.
-class Model {
- public:
-  Model(const float* mean, int channels, int half, int first, int last, bool two)
-      : first_(first), count_(last - first + 1), two_(two) {
-    colours_.resize(count_, 3);
+struct Model {
+  Model(const float* mean, int channels, int half, int first_offset, int last_offset, bool two_steps)
+      : first(first_offset), count(last_offset - first + 1), two(two_steps), colours(count, 3) {
     for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < count_; ++k)
-        colours_(k, c) = mean[(channels == 1 ? 0 : c) * (2 * half + 1) + half + first + k];
-    const double change = (colours_.colwise().maxCoeff() - colours_.colwise().minCoeff()).norm();
-    noise_ = kNoise + kModelNoise * change;
-    freedom_ = std::max(1.0, (channels == 1 ? 1.0 : 3.0) * (count_ - (two ? 3 : 2)) - (two ? 3 : 2));
-    grey_ = channels == 1;
+      for (int k = 0; k < count; ++k)
+        colours(k, c) = mean[(channels == 1 ? 0 : c) * (2 * half + 1) + half + first + k];
+    const double change = (colours.colwise().maxCoeff() - colours.colwise().minCoeff()).norm();
+    noise = kNoise + kModelNoise * change;
+    if (channels == 1) noise *= std::sqrt(3.0);  // the same residual three times
+    const int steps = two ? 3 : 2;
+    freedom = std::max(1, channels * (count - steps) - steps);
   }
 
   void rests(const Params& p, Rests& out) const {
-    Samples basis(count_, 3);
-    for (int k = 0; k < count_; ++k) {
-      const double o = first_ + k, front = step((o - p[0]) / p[2]);
-      basis(k, 0) = 1.0, basis(k, 1) = front;
-      basis(k, 2) = two_ ? step((o - p[0] + p[1]) / p[2]) - front : 0.0;
+    Samples basis(count, 3);
+    for (int k = 0; k < count; ++k) {
+      const double o = first + k, front = step((o - p[0]) / p[2]);
+      basis.row(k) << 1.0, front, two ? step((o - p[0] + p[1]) / p[2]) - front : 0.0;
     }
     Eigen::Matrix3d normal = basis.transpose() * basis;
     normal.diagonal().array() += 1e-9;
-    const Eigen::Matrix3d levels = normal.ldlt().solve(basis.transpose() * colours_);
-    const Samples left = (colours_ - basis * levels) / (grey_ ? noise_ * std::sqrt(3.0) : noise_);
-    const int size = 3 * count_;
-    out.resize(size + 4);
-    for (int c = 0; c < 3; ++c) out.segment(c * count_, count_) = left.col(c);
-    out[size] = two_ ? (p[2] - kUsualBlur) / kBlurSpread : 0.0;
+    const Eigen::Matrix3d levels = normal.ldlt().solve(basis.transpose() * colours);
+    const Samples left = (colours - basis * levels) / noise;
+    const int size = 3 * count;
+    out.setZero(size + 4);
+    for (int c = 0; c < 3; ++c) out.segment(c * count, count) = left.col(c);
+    if (!two) return;
+    out[size] = (p[2] - kUsualBlur) / kBlurSpread;
     for (int c = 0; c < 3; ++c) {
       const double reveal = levels(0, c) + levels(2, c);
-      out[size + 1 + c] =
-          two_ ? (std::max(0.0, reveal - kWhitest) + std::min(0.0, reveal - kBlackest)) / kColourSpread : 0.0;
+      out[size + 1 + c] = (reveal - std::clamp(reveal, kBlackest, kWhitest)) / kColourSpread;
     }
   }
-  double freedom() const { return freedom_; }
-  bool two() const { return two_; }
 
- private:
-  int first_, count_;
-  bool two_, grey_ = false;
-  Samples colours_;
-  double noise_ = 1.0, freedom_ = 1.0;
+  int first, count;
+  bool two;
+  Samples colours;
+  double noise, freedom;
 };
 
 struct Fit {
@@ -107,20 +95,12 @@ struct Fit {
   double sigma = 0.0;  // of the front
 };
 
-void keepSane(Params& p) {
-  p[1] = std::clamp(p[1], kMinApart, kMaxApart);
-  p[2] = std::clamp(p[2], kMinBlur, 3.0);
-}
-
 void slopesOf(const Model& model, const Params& at, const Rests& rests, RestSlopes& slopes) {
   constexpr double kDifference = 0.02;
-  slopes.resize(rests.size(), 3);
+  slopes.setZero(rests.size(), 3);
   Rests moved;
   for (int i = 0; i < 3; ++i) {
-    if (i == 1 && !model.two()) {
-      slopes.col(i).setZero();
-      continue;
-    }
+    if (i == 1 && !model.two) continue;
     Params next = at;
     next[i] += kDifference;
     model.rests(next, moved);
@@ -143,7 +123,8 @@ Fit fit(const Model& model, const Params& start) {
     Eigen::Matrix3d damped = normal;
     damped.diagonal() += damping * normal.diagonal() + Eigen::Vector3d::Constant(1e-6);
     Params next = best.params - damped.ldlt().solve(descent);
-    keepSane(next);
+    next[1] = std::clamp(next[1], kMinApart, kMaxApart);
+    next[2] = std::clamp(next[2], kMinBlur, kMaxBlur);
     model.rests(next, tried);
     const double then = tried.squaredNorm(), gain = cost - then;
     if (!(gain > 0.0)) {
@@ -153,7 +134,7 @@ Fit fit(const Model& model, const Params& start) {
     best.params = next, cost = then, rests = tried, damping *= 0.3;
     if (gain < kSettled * cost + kSettled) break;
   }
-  best.rest = cost / model.freedom();
+  best.rest = cost / model.freedom;
   normal.diagonal().array() += 1e-6;
   best.sigma = std::sqrt(std::max(0.0, normal.inverse()(0, 0)) * std::max(1.0, best.rest));
   return best;

@@ -5,17 +5,14 @@
 
 namespace window_ingress::detection {
 
-CandidateTrace traceOf(const ScoredCandidate& candidate, RejectReason reason, double value, double limit) {
-  return {candidate.quad,
-          candidate.found.source,
-          reason,
-          value,
-          limit,
-          candidate.score,
-          candidate.appearance.has_value(),
-          candidate.appearance ? candidate.appearance->distance : 0.0,
-          candidate.correlation.value_or(0.0),
-          candidate.proposal};
+CandidateTrace traceOf(const ScoredCandidate& candidate, const Rejection& rejection) {
+  CandidateTrace trace{candidate.quad,  candidate.found.source, rejection.reason,
+                       rejection.value, rejection.limit,        candidate.score};
+  trace.has_appearance = candidate.appearance.has_value();
+  if (candidate.appearance) trace.bhattacharyya = candidate.appearance->distance;
+  trace.correlation = candidate.correlation.value_or(0.0);
+  trace.proposal = candidate.proposal;
+  return trace;
 }
 
 void sortByRank(std::vector<ScoredCandidate>& candidates) {

@@ -20,11 +20,10 @@ struct SideSupport {
 
 /// A quadrilateral that may be the window, in pixels of the search level, canonical order.
 struct Candidate {
-  geometry::Quadrilateral quad = {
-      Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-      Eigen::Vector2d::Zero()};  ///< in the undistorted level, where its sides are straight
-  geometry::Quadrilateral seen = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-                                  Eigen::Vector2d::Zero()};  ///< in the raw level
+  /// In the undistorted level, where its sides are straight.
+  geometry::Quadrilateral quad = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                  Eigen::Vector2d::Zero()};
+  geometry::Quadrilateral seen = quad;  ///< in the raw level
   CandidateSource source = CandidateSource::kContour;
   double solidity = 1.0;  ///< area of the outline over area of its hull
   double closure = 1.0;   ///< 1: sides end in its corners; towards 0 if they stop short or run beyond
@@ -38,8 +37,8 @@ struct ScoredCandidate {
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   double proposal = 0.0;         ///< rank in the search; 0 if its borders were located afterwards
-  RejectReason verdict =
-      RejectReason::kNone;  ///< kOuterBorder, kPane, kDuplicate: another candidate replaces this one
+  /// kOuterBorder, kPane, kDuplicate: another candidate replaces this one.
+  RejectReason verdict = RejectReason::kNone;
   std::optional<AppearanceMatch> appearance;  ///< comparison with the reference, where possible
   bool located = false;                       ///< its borders were moved to the reference's
   std::optional<double> correlation;          ///< with the reference's surroundings, if aligned
@@ -53,7 +52,14 @@ struct ScoredCandidate {
 /// Higher rank first; deterministic.
 void sortByRank(std::vector<ScoredCandidate>& candidates);
 
+/// Why a candidate was stopped, and by how much.
+struct Rejection {
+  RejectReason reason = RejectReason::kNone;
+  double value = 0.0;
+  double limit = 0.0;
+};
+
 /// One line of the trace for a candidate.
-CandidateTrace traceOf(const ScoredCandidate& candidate, RejectReason reason, double value, double limit);
+CandidateTrace traceOf(const ScoredCandidate& candidate, const Rejection& rejection);
 
 }  // namespace window_ingress::detection

@@ -15,17 +15,23 @@ constexpr double kAreaWeight = 0.45;        ///< exponent of the area's part in 
 constexpr double kClosureWeight = 0.5;      ///< exponent of the closure's part
 constexpr double kGeometryWeight = 0.25;    ///< exponent of the geometry score if there is a reference
 constexpr double kBorderScoreWeight = 0.7;  ///< exponent of the borders' score, see ReferenceBorders
-constexpr double kBorderPart =
-    0.003;  ///< a corner this close to the image's border is cut off [longer image sides]
-constexpr double kMeanSideSupport = 0.7;  ///< least mean support of the four sides
-constexpr double kMinSolidity = 0.8;      ///< area of an outline over that of its hull
+constexpr double kBorderPart = 0.003;       ///< a corner is cut off this close to the border [longer sides]
+constexpr double kMeanSideSupport = 0.7;    ///< least mean support of the four sides
+constexpr double kMinSolidity = 0.8;        ///< area of an outline over that of its hull
 constexpr double kRightAngle = 1.5707963267948966;
 
-double worstAngle(const geometry::Quadrilateral& quad) {
-  double worst = 0.0;
-  for (double angle : geometry::interiorAngles(quad)) worst = std::max(worst, std::abs(angle - kRightAngle));
-  return worst;
-}
+/// Support of all four sides.
+struct Support {
+  explicit Support(const std::array<SideSupport, 4>& sides) {
+    for (const SideSupport& side : sides) {
+      least = std::min(least, side.fraction);
+      mean += 0.25 * side.fraction;
+      contrast = std::min(contrast, side.contrast);
+      overshoot += 0.25 * side.overshoot;
+    }
+  }
+  double least = 1.0, mean = 0.0, contrast = 255.0, overshoot = 0.0;
+};
 
 }  // namespace
 
@@ -41,7 +47,9 @@ std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& 
   if (aspect > params.max_aspect) return Rejection{RejectReason::kAspect, aspect, params.max_aspect};
   if (candidate.solidity < kMinSolidity)
     return Rejection{RejectReason::kSolidity, candidate.solidity, kMinSolidity};
-  const double angle = worstAngle(candidate.quad);
+  double angle = 0.0;
+  for (double one : geometry::interiorAngles(candidate.quad))
+    angle = std::max(angle, std::abs(one - kRightAngle));
   if (angle > params.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params.max_angle_rad};
   const double margin = geometry::distanceToBorder(candidate.seen, image.width, image.height);
   const double limit = kBorderPart * std::max(image.width, image.height);
@@ -50,30 +58,21 @@ std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& 
 }
 
 std::optional<Rejection> supportFault(const Candidate& candidate, const CandidateGatesParams& params) {
-  double least = 1.0, sum = 0.0, contrast = 255.0;
-  for (const SideSupport& side : candidate.sides) {
-    least = std::min(least, side.fraction);
-    sum += side.fraction;
-    contrast = std::min(contrast, side.contrast);
-  }
-  if (least < params.min_side_support)
-    return Rejection{RejectReason::kLineSupport, least, params.min_side_support};
-  if (sum / 4.0 < kMeanSideSupport) return Rejection{RejectReason::kLineSupport, sum / 4.0, kMeanSideSupport};
-  if (contrast < params.min_contrast)
-    return Rejection{RejectReason::kContrast, contrast, params.min_contrast};
+  const Support support(candidate.sides);
+  if (support.least < params.min_side_support)
+    return Rejection{RejectReason::kLineSupport, support.least, params.min_side_support};
+  if (support.mean < kMeanSideSupport)
+    return Rejection{RejectReason::kLineSupport, support.mean, kMeanSideSupport};
+  if (support.contrast < params.min_contrast)
+    return Rejection{RejectReason::kContrast, support.contrast, params.min_contrast};
   return std::nullopt;
 }
 
 double windowScore(const Candidate& candidate) {
-  double least = 1.0, sum = 0.0, overshoot = 0.0;
-  for (const SideSupport& side : candidate.sides) {
-    least = std::min(least, side.fraction);
-    sum += 0.25 * side.fraction;
-    overshoot += 0.25 * side.overshoot;
-  }
-  const double support = std::max(0.0, (0.5 * (least + sum) - kSupportLow) / (1.0 - kSupportLow));
-  return std::min(1.0, support) * std::pow(candidate.closure, kClosureWeight) *
-         std::pow(1.0 - overshoot, kOvershootWeight);
+  const Support support(candidate.sides);
+  const double share = (0.5 * (support.least + support.mean) - kSupportLow) / (1.0 - kSupportLow);
+  return std::clamp(share, 0.0, 1.0) * std::pow(candidate.closure, kClosureWeight) *
+         std::pow(1.0 - support.overshoot, kOvershootWeight);
 }
 
 double scoreWithReference(double geometry, double border_score) {

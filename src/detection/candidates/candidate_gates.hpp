@@ -8,13 +8,6 @@
 
 namespace window_ingress::detection {
 
-/// Why a candidate was stopped, and by how much.
-struct Rejection {
-  RejectReason reason = RejectReason::kNone;
-  double value = 0.0;
-  double limit = 0.0;
-};
-
 /// The paper's conditions on a candidate (P8), each a named gate. These concern the shape alone: corners,
 /// area, aspect ratio, solidity, angles, border.
 std::optional<Rejection> shapeFault(const Candidate& candidate, const cv::Size& image,

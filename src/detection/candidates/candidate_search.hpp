@@ -9,11 +9,9 @@
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/edge_chains.hpp"
-#include "detection/candidates/edge_dilation.hpp"
 #include "detection/candidates/hough_segments.hpp"
 #include "detection/candidates/preprocess.hpp"
 #include "detection/candidates/segment_quads.hpp"
-#include "detection/candidates/undistortion_map.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/stage_timer.hpp"
@@ -42,40 +40,34 @@ class CandidateSearch {
   const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
   /// Quadrilaterals enclosed by three sides of the last call, see SegmentQuads::open. By geometry alone they
-  /// are no windows; the caller must judge them. Valid until the next call.
-  const std::vector<ScoredCandidate>& open();
+  /// are no windows; the caller must judge them.
+  std::vector<ScoredCandidate> open();
 
   /// \param timer is notified of each completed stage; null: none; must outlive this object
   void setTimer(StageTimer* timer) { timer_ = timer; }
 
-  int factor() const { return factor_; }  ///< pixels of the last image per pixel of its search level
+  int factor() const { return level_.factor; }  ///< pixels of the last image per pixel of its search level
 
  private:
-  void look(const cv::Mat& level);
+  void look(const cv::Mat& image);
   void outline(const cv::Mat& mask, CandidateSource source);
-  void outlineBlobs(const cv::Mat& level, double contrast);
   const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
-  void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
+  const geometry::PinholeCamera* lens() const { return lens_ ? &*lens_ : nullptr; }
+  ScoredCandidate placed(const Candidate& found) const;
+  void admit(const Candidate& found, DetectionTrace& trace);
   void keepBest(DetectionTrace& trace);
 
   DetectorParams params_;
-  Preprocess preprocess_;
-  CannyEdges edges_;
-  UndistortionMap undistortion_;
+  SearchLevel level_;
+  std::optional<geometry::PinholeCamera> lens_;  ///< of the search level
+  EdgeMap map_;
   EdgeChains chains_;
   HoughSegments hough_;
-  BlobMasks blobs_;
-  EdgeDilation dilation_;
-  ContourPolygons contours_;
   SegmentQuads segment_quads_;
-  const EdgeMap* map_ = nullptr;
   const std::vector<Segment>* segments_ = nullptr;
-  ContourPolygons::Result outlines_;
-  cv::Mat straight_;
-  std::vector<ScoredCandidate> admitted_, kept_, open_;
+  Outlines outlines_;
+  std::vector<ScoredCandidate> admitted_, kept_;
   StageTimer* timer_ = nullptr;
-  int factor_ = 1;
-  cv::Size level_size_;
 };
 
 }  // namespace window_ingress::detection

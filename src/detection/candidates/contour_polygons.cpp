@@ -16,19 +16,18 @@ using Eigen::Vector2d;
 constexpr double kMinPerimeter = 0.08;  ///< of an outline, in longer sides of the level
 constexpr double kHullExcess = 0.12;    ///< the four lines round a hull may add this part of the hull's area
 constexpr double kClosure = 0.7;        ///< of an outline, which is closed but has imprecise corners
-constexpr int kMaxContours = 3000;      ///< number of outlines examined per image
+constexpr int kMaxContours = 3000;      ///< number of outlines examined per mask
+constexpr std::size_t kMaxHull = 200;   ///< corners of a hull round which four lines are sought
 
-// Point where the sides before `a` and after `b` meet if side a-b is removed, and the area that this adds.
-bool meetBeyond(const Vector2d& before, const Vector2d& a, const Vector2d& b, const Vector2d& after,
-                Vector2d& meet, double& added) {
+// Point where the sides before `a` and after `b` meet if side a-b is removed.
+std::optional<Vector2d> meetBeyond(const Vector2d& before, const Vector2d& a, const Vector2d& b,
+                                   const Vector2d& after) {
   const Vector2d u = a - before, v = after - b;
   const double sine = geometry::cross(u, v);
-  if (std::abs(sine) < 1e-6 * u.norm() * v.norm()) return false;
+  if (std::abs(sine) < 1e-6 * u.norm() * v.norm()) return std::nullopt;
   const double s = geometry::cross(b - a, v) / sine, t = geometry::cross(b - a, u) / sine;
-  if (s < 0.0 || t > 0.0) return false;
-  meet = a + s * u;
-  added = 0.5 * std::abs(geometry::cross(b - a, meet - a));
-  return true;
+  if (s < 0.0 || t > 0.0) return std::nullopt;
+  return Vector2d(a + s * u);
 }
 
 bool removeCheapestSide(std::vector<Vector2d>& polygon) {
@@ -37,22 +36,16 @@ bool removeCheapestSide(std::vector<Vector2d>& polygon) {
   std::size_t side = n;
   Vector2d corner = Vector2d::Zero();
   for (std::size_t i = 0; i < n; ++i) {
-    Vector2d meet = Vector2d::Zero();
-    double added = 0.0;
-    if (!meetBeyond(polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n], meet,
-                    added))
-      continue;
-    if (added < least) least = added, side = i, corner = meet;
+    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % n];
+    const auto meet = meetBeyond(polygon[(i + n - 1) % n], a, b, polygon[(i + 2) % n]);
+    if (!meet) continue;
+    const double added = std::abs(geometry::cross(b - a, *meet - a));  // twice the area
+    if (added < least) least = added, side = i, corner = *meet;
   }
   if (side == n) return false;
   polygon[side] = corner;
   polygon.erase(polygon.begin() + (side + 1) % n);
   return true;
-}
-
-geometry::Quadrilateral toQuad(const std::vector<cv::Point>& p) {
-  return {Vector2d(p[0].x, p[0].y), Vector2d(p[1].x, p[1].y), Vector2d(p[2].x, p[2].y),
-          Vector2d(p[3].x, p[3].y)};
 }
 
 // Moves each side outwards.
@@ -74,57 +67,54 @@ geometry::Quadrilateral boundingQuad(const std::vector<cv::Point>& outline) {
 
 }  // namespace
 
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
-                                                     std::vector<Vector2d>& buffer) {
-  if (hull.size() < 4) return std::nullopt;
-  std::vector<Vector2d>& polygon = buffer;
-  polygon.clear();
+int closeGaps(const cv::Mat& edges, const DilationParams& params, cv::Mat& closed) {
+  const double radius_px = params.radius * std::max(edges.cols, edges.rows);
+  const int whole_px = std::max(1, static_cast<int>(std::lround(radius_px))), side_px = 2 * whole_px + 1;
+  cv::dilate(edges, closed, cv::getStructuringElement(cv::MORPH_RECT, {side_px, side_px}));
+  return whole_px;
+}
+
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull) {
+  std::vector<Vector2d> polygon;
   for (const cv::Point& p : hull) polygon.emplace_back(p.x, p.y);
   while (polygon.size() > 4)
     if (!removeCheapestSide(polygon)) return std::nullopt;
+  if (polygon.size() < 4) return std::nullopt;
   return geometry::canonical({polygon[0], polygon[1], polygon[2], polygon[3]});
 }
 
-void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px) {
-  const double perimeter = cv::arcLength(outline, true);
-  if (outline.size() < 4 || perimeter < min_perimeter_px) return;
-  cv::convexHull(outline, hull_);
-  const double hull_area = cv::contourArea(hull_);
-  if (hull_area < 0.01 * min_perimeter_px * min_perimeter_px) return;
-  Candidate candidate;
-  candidate.solidity = cv::contourArea(outline) / hull_area;
-  cv::approxPolyDP(hull_, polygon_, params_.epsilon * cv::arcLength(hull_, true), true);
-  std::optional<geometry::Quadrilateral> quad;
-  if (polygon_.size() == 4) quad = geometry::canonical(toQuad(polygon_));
-  if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_, lines_);
-  const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
-  if (excess > kHullExcess) {
-    result_.rejected.push_back({boundingQuad(outline), source_, RejectReason::kCorners,
-                                static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0, 0.0, 0.0});
-    return;
-  }
-  candidate.source = source_;
-  if (source_ == CandidateSource::kBlob) candidate.sides = outlinedSides(*quad, outline);
-  candidate.closure = kClosure;
-  candidate.quad = candidate.seen = grown(*quad, grow_px);
-  result_.candidates.push_back(candidate);
-}
-
-const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, double dilation_px,
-                                                    CandidateSource source) {
-  source_ = source;
-  result_.candidates.clear();
-  result_.rejected.clear();
-  cv::findContours(closed, outlines_, tree_, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
-  result_.contours = static_cast<int>(outlines_.size());
-  result_.budget_exceeded = result_.contours > kMaxContours;
-  const int count = std::min(result_.contours, kMaxContours);
+void addOutlines(const cv::Mat& closed, int dilation_px, const ContourPolygonsParams& params,
+                 CandidateSource source, Outlines& outlines) {
+  std::vector<std::vector<cv::Point>> contours;
+  std::vector<cv::Vec4i> tree;
+  cv::findContours(closed, contours, tree, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  const int found = static_cast<int>(contours.size());
+  outlines.contours += found;
+  outlines.budget_exceeded = outlines.budget_exceeded || found > kMaxContours;
   const double min_perimeter_px = kMinPerimeter * std::max(closed.cols, closed.rows);
-  for (int i = 0; i < count; ++i) {
-    const bool is_hole = tree_[i][3] >= 0;
-    look(outlines_[i], min_perimeter_px, is_hole ? dilation_px : -dilation_px);
+  std::vector<cv::Point> hull, polygon;
+  for (int i = 0; i < std::min(found, kMaxContours); ++i) {
+    const std::vector<cv::Point>& outline = contours[i];
+    if (outline.size() < 4 || cv::arcLength(outline, true) < min_perimeter_px) continue;
+    cv::convexHull(outline, hull);
+    const double hull_area = cv::contourArea(hull);
+    if (hull_area < 0.01 * min_perimeter_px * min_perimeter_px) continue;
+    cv::approxPolyDP(hull, polygon, params.epsilon * cv::arcLength(hull, true), true);
+    auto quad = polygon.size() == 4 ? quadRoundHull(polygon) : std::nullopt;
+    if (!quad && hull.size() <= kMaxHull) quad = quadRoundHull(hull);
+    if (!quad || geometry::signedArea(*quad) / hull_area - 1.0 > kHullExcess) {
+      outlines.rejected.push_back(
+          {boundingQuad(outline), source, RejectReason::kCorners, static_cast<double>(polygon.size()), 4.0});
+      continue;
+    }
+    const bool is_hole = tree[i][3] >= 0;
+    Candidate& candidate = outlines.candidates.emplace_back();
+    candidate.quad = candidate.seen = grown(*quad, is_hole ? dilation_px : -dilation_px);
+    candidate.source = source;
+    candidate.solidity = cv::contourArea(outline) / hull_area;
+    candidate.closure = kClosure;
+    if (source == CandidateSource::kBlob) candidate.sides = outlinedSides(*quad, outline);
   }
-  return result_;
 }
 
 }  // namespace window_ingress::detection

@@ -9,41 +9,27 @@
 
 namespace window_ingress::detection {
 
+/// Closes gaps of an edge map by dilation (P6). This affects only the search. \param edges, closed CV_8UC1
+/// \return how far borders move outwards [px]
+int closeGaps(const cv::Mat& edges, const DilationParams& params, cv::Mat& closed);
+
 /// Four lines round a convex polygon: removes the side that adds the least area until four are left.
 /// \return nothing if fewer than four points are given or the lines do not close
-/// \param buffer working memory
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
-                                                     std::vector<Eigen::Vector2d>& buffer);
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull);
 
-/// Closed contours to quadrilaterals (P7).
-class ContourPolygons {
- public:
-  struct Result {
-    std::vector<Candidate> candidates;
-    std::vector<CandidateTrace> rejected;  ///< long outlines without four corners; quad in search pixels
-    int contours = 0;
-    bool budget_exceeded = false;
-  };
-
-  explicit ContourPolygons(const ContourPolygonsParams& params) : params_(params) {}
-
-  /// \param closed CV_8UC1, edges after closing; not changed
-  /// \param dilation_px growth of edges by the closing, on each side; removed again
-  /// \param source type of the outlines: edges or blobs
-  /// Valid until the next call.
-  const Result& run(const cv::Mat& closed, double dilation_px,
-                    CandidateSource source = CandidateSource::kContour);
-
- private:
-  void look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px);
-
-  ContourPolygonsParams params_;
-  CandidateSource source_ = CandidateSource::kContour;
-  std::vector<std::vector<cv::Point>> outlines_;
-  std::vector<cv::Vec4i> tree_;
-  std::vector<cv::Point> hull_, polygon_;
-  std::vector<Eigen::Vector2d> lines_;
-  Result result_;
+/// What the contours of masks have become.
+struct Outlines {
+  std::vector<Candidate> candidates;     ///< in the raw level
+  std::vector<CandidateTrace> rejected;  ///< long ones without four corners; quad in search pixels
+  int contours = 0;
+  bool budget_exceeded = false;
 };
+
+/// Adds the quadrilaterals that the closed contours of a mask are (P7).
+/// \param closed CV_8UC1, edges after closing
+/// \param dilation_px growth of edges by the closing, on each side; removed again
+/// \param source type of the outlines: edges or blobs
+void addOutlines(const cv::Mat& closed, int dilation_px, const ContourPolygonsParams& params,
+                 CandidateSource source, Outlines& outlines);
 
 }  // namespace window_ingress::detection

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
+
+#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMaxTurn_rad =
-    0.7;  ///< largest difference in gradient direction between successive pixels [rad]
+constexpr double kMaxTurn_rad = 0.7;  ///< of the gradient between successive pixels [rad]
 const float kMinSquareCosine = static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2));
-constexpr double kStraightPx =
-    0.9;                       ///< largest deviation of a run from its chord, at a level side of 320 [px]
-constexpr double kBow = 0.02;  ///< additional deviation, as a part of the chord, for lens distortion
-constexpr int kMinPixels = 4;  ///< shorter runs are dropped
-constexpr double kChainSide = 320.0;
+constexpr double kStraightPx = 0.9;    ///< largest deviation of a run from its chord, at kChainSide [px]
+constexpr double kChainSide = 320.0;   ///< longer side of a level [px]
+constexpr double kBow = 0.02;          ///< additional deviation, as a part of the chord, for lens distortion
+constexpr std::size_t kMinPixels = 4;  ///< shorter runs are dropped
 constexpr short kSteps[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
 // The one of eight steps that is nearest to a direction.
@@ -29,22 +30,13 @@ int stepTowards(int x, int y) {
 
 }  // namespace
 
-void LineMoments::add(const Vector2d& p) {
-  n += 1.0, x += p.x(), y += p.y();
-  xx += p.x() * p.x(), xy += p.x() * p.y(), yy += p.y() * p.y();
-}
-
-void LineMoments::add(const LineMoments& other) {
-  n += other.n, x += other.x, y += other.y, xx += other.xx, xy += other.xy, yy += other.yy;
-}
-
 Vector2d LineMoments::along() const {
-  const double a = xx - x * x / n, b = xy - x * y / n, c = yy - y * y / n;
-  const double angle = 0.5 * std::atan2(2.0 * b, a - c);
+  const Eigen::Matrix2d spread = squares - sum * sum.transpose() / n;
+  const double angle = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
   return {std::cos(angle), std::sin(angle)};
 }
 
-// The free neighbour that continues the edge, the straightest first.
+// Moves on to the free neighbour that continues the edge, the straightest first; `sense` 1 or -1.
 bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
   const int ahead = stepTowards(-sense * at.dy, sense * at.dx);
   for (int turn : {0, 1, 7}) {
@@ -52,56 +44,65 @@ bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
     const int x = at.x + step[0], y = at.y + step[1];
     uchar& free = free_.ptr(y)[x];
     if (!free) continue;
-    const short dx = map.dx.ptr<short>(y)[x], dy = map.dy.ptr<short>(y)[x];
-    const float dot = static_cast<float>(dx * at.dx + dy * at.dy);
+    const Pixel to = pixelAt(map, x, y);
+    const float dot = static_cast<float>(to.dx * at.dx + to.dy * at.dy);
     const float squares =
-        static_cast<float>(dx * dx + dy * dy) * static_cast<float>(at.dx * at.dx + at.dy * at.dy);
+        static_cast<float>(to.dx * to.dx + to.dy * to.dy) * static_cast<float>(at.dx * at.dx + at.dy * at.dy);
     if (dot <= 0.0F || dot * dot < kMinSquareCosine * squares) continue;
     free = 0;
-    at = {static_cast<short>(x), static_cast<short>(y), dx, dy};
+    at = to;
     return true;
   }
   return false;
 }
 
-void EdgeChains::follow(const EdgeMap& map, Pixel at, int sense, std::vector<Pixel>& pixels) {
-  pixels.clear();
-  while (next(map, sense, at)) pixels.push_back(at);
-}
-
 // Adds a part of the chain as a run.
 void EdgeChains::emit(std::size_t first, std::size_t last) {
-  if (last - first + 1 < static_cast<std::size_t>(kMinPixels)) return;
+  const std::size_t count = last - first + 1;
+  if (count < kMinPixels) return;
   EdgeChain run;
+  run.first = static_cast<int>(pixels_.size());
+  run.count = static_cast<int>(count);
   Vector2d gradient = Vector2d::Zero();
   for (std::size_t i = first; i <= last; ++i) {
+    const Vector2d own(chain_[i].dx, chain_[i].dy);
     run.moments.add(points_[i]);
-    const Vector2d own(forward_[i].dx, forward_[i].dy);
     gradient += own;
     run.contrast += own.norm();
+    pixels_.emplace_back(chain_[i].x, chain_[i].y);
   }
-  run.first = static_cast<int>(pixels_.size());
-  run.count = static_cast<int>(last - first + 1);
-  for (std::size_t i = first; i <= last; ++i) pixels_.emplace_back(forward_[i].x, forward_[i].y);
   run.contrast /= run.moments.n * EdgeMap::kSobelGain;
   Vector2d along = run.moments.along();
-  // On the screen, y down, the right of `along` is (-y, x).
-  if (along.x() * gradient.y() - along.y() * gradient.x() < 0.0) along = -along;
-  run.normal = Vector2d(-along.y(), along.x());
+  if (geometry::cross(along, gradient) < 0.0) along = -along;
+  run.normal = {-along.y(), along.x()};  // on the screen, y down, the right of `along`
   const Vector2d mean = run.moments.mean();
-  double low = 0.0, high = 0.0;
-  for (std::size_t i : {first, last}) {
-    const double t = along.dot(points_[i] - mean);
-    low = std::min(low, t), high = std::max(high, t);
-  }
-  run.a = mean + low * along, run.b = mean + high * along;
+  const double begin = along.dot(points_[first] - mean), end = along.dot(points_[last] - mean);
+  run.a = mean + std::min({0.0, begin, end}) * along;
+  run.b = mean + std::max({0.0, begin, end}) * along;
   runs_.push_back(run);
 }
 
+void EdgeChains::tabulate(const geometry::PinholeCamera& lens) {
+  const auto key = [](const geometry::PinholeCamera& c) {
+    return std::tie(c.model, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
+  };
+  if (tabulated_ && key(*tabulated_) == key(lens)) return;
+  tabulated_ = lens;
+  undistorted_.create(lens.height, lens.width, CV_32FC2);
+  for (int y = 0; y < lens.height; ++y)
+    for (int x = 0; x < lens.width; ++x) {
+      const Eigen::Vector2f ideal = lens.undistort(Vector2d(x, y)).cast<float>();
+      undistorted_.ptr<cv::Vec2f>(y)[x] = {ideal.x(), ideal.y()};
+    }
+}
+
 // Cuts the chain at its point furthest from the chord until all parts are straight (Douglas and Peucker).
-void EdgeChains::cut(const UndistortionMap& lens) {
+void EdgeChains::cut(bool is_distorted) {
   points_.clear();
-  for (const Pixel& p : forward_) points_.push_back(lens.undistort(p.x, p.y));
+  for (const Pixel& p : chain_) {
+    const cv::Vec2f ideal = is_distorted ? undistorted_.ptr<cv::Vec2f>(p.y)[p.x] : cv::Vec2f(p.x, p.y);
+    points_.emplace_back(ideal[0], ideal[1]);
+  }
   parts_.assign(1, {0, points_.size() - 1});
   while (!parts_.empty()) {
     const auto [first, last] = parts_.back();
@@ -111,8 +112,7 @@ void EdgeChains::cut(const UndistortionMap& lens) {
     double furthest = 0.0;
     std::size_t at = first;
     for (std::size_t i = first + 1; i < last; ++i) {
-      const Vector2d d = points_[i] - points_[first];
-      const double off = std::abs(chord.x() * d.y() - chord.y() * d.x());
+      const double off = std::abs(geometry::cross(chord, points_[i] - points_[first]));
       if (off > furthest) furthest = off, at = i;
     }
     if (furthest > (straight_px_ + kBow * length) * length) {
@@ -124,7 +124,8 @@ void EdgeChains::cut(const UndistortionMap& lens) {
   }
 }
 
-const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const UndistortionMap& lens) {
+const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const geometry::PinholeCamera* lens) {
+  if (lens) tabulate(*lens);
   runs_.clear();
   pixels_.clear();
   map.edges.copyTo(free_);
@@ -134,15 +135,13 @@ const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const Undistor
     for (int x = 1; x + 1 < free_.cols; ++x) {
       if (!row[x]) continue;
       row[x] = 0;
-      const Pixel start = {static_cast<short>(x), static_cast<short>(y), map.dx.ptr<short>(y)[x],
-                           map.dy.ptr<short>(y)[x]};
-      follow(map, start, -1, backward_);
-      std::reverse(backward_.begin(), backward_.end());
-      backward_.push_back(start);
-      follow(map, start, 1, forward_);
-      backward_.insert(backward_.end(), forward_.begin(), forward_.end());
-      forward_.swap(backward_);
-      if (forward_.size() >= static_cast<std::size_t>(kMinPixels)) cut(lens);
+      const Pixel start = pixelAt(map, x, y);
+      chain_.clear();
+      for (Pixel at = start; next(map, -1, at);) chain_.push_back(at);
+      std::reverse(chain_.begin(), chain_.end());
+      chain_.push_back(start);
+      for (Pixel at = start; next(map, 1, at);) chain_.push_back(at);
+      if (chain_.size() >= kMinPixels) cut(lens != nullptr);
     }
   }
   return runs_;

@@ -2,21 +2,23 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "detection/candidates/canny_edges.hpp"
-#include "detection/candidates/undistortion_map.hpp"
-#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
 /// Sums over points, which give the least-squares line.
 struct LineMoments {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  double n = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
 
-  void add(const Eigen::Vector2d& p);
-  void add(const LineMoments& other);
-  Eigen::Vector2d mean() const { return {x / n, y / n}; }
+  void add(const Eigen::Vector2d& p) { add({1.0, p, p * p.transpose()}); }
+  void add(const LineMoments& other) { n += other.n, sum += other.sum, squares += other.squares; }
+  Eigen::Vector2d mean() const { return sum / n; }
   Eigen::Vector2d along() const;  ///< unit vector of the least-squares line, either sign
 };
 
@@ -33,8 +35,9 @@ struct EdgeChain {
 /// each pixel once. The runs cast the votes of the Hough transform.
 class EdgeChains {
  public:
-  /// Runs from top to bottom of the image. Valid until the next call.
-  const std::vector<EdgeChain>& run(const EdgeMap& map, const UndistortionMap& lens);
+  /// Runs from top to bottom of the image. Valid until the next call. Expensive when the lens changes.
+  /// \param lens camera of the level, see `lensOfLevel`; null: no distortion
+  const std::vector<EdgeChain>& run(const EdgeMap& map, const geometry::PinholeCamera* lens);
 
   /// Runs of the last map.
   const std::vector<EdgeChain>& runs() const { return runs_; }
@@ -47,14 +50,19 @@ class EdgeChains {
     short x, y, dx, dy;
   };
 
+  static Pixel pixelAt(const EdgeMap& map, int x, int y) {
+    return {static_cast<short>(x), static_cast<short>(y), map.dx.ptr<short>(y)[x], map.dy.ptr<short>(y)[x]};
+  }
   bool next(const EdgeMap& map, int sense, Pixel& at);
-  void follow(const EdgeMap& map, Pixel start, int sense, std::vector<Pixel>& pixels);
-  void cut(const UndistortionMap& lens);
+  void tabulate(const geometry::PinholeCamera& lens);
+  void cut(bool is_distorted);
   void emit(std::size_t first, std::size_t last);
 
-  cv::Mat free_;  ///< CV_8UC1, edge pixels that belong to no chain yet
-  std::vector<Pixel> forward_, backward_;
-  std::vector<Eigen::Vector2d> points_;
+  std::optional<geometry::PinholeCamera> tabulated_;
+  cv::Mat undistorted_;  ///< CV_32FC2, place of every pixel through that lens
+  cv::Mat free_;         ///< CV_8UC1, edge pixels that belong to no chain yet
+  std::vector<Pixel> chain_;
+  std::vector<Eigen::Vector2d> points_;  ///< of the chain, undistorted
   std::vector<std::pair<std::size_t, std::size_t>> parts_;
   double straight_px_ = 1.0;
   std::vector<EdgeChain> runs_;

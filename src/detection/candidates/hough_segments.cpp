@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace window_ingress::detection {
 namespace {
@@ -9,8 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kOffLine = 0.004;  ///< largest distance of run ends from their line [longer level sides]
-constexpr double kLineBow =
-    0.02;  ///< additional distance, as a part of the line's pixels, for lens distortion
+constexpr double kLineBow = 0.02;   ///< more distance for lens distortion, as a part of the line's pixels
 constexpr double kJoinGap = 0.35;  ///< longest gap over which two pieces of a line are joined [their lengths]
 constexpr std::size_t kMaxSegments = 300;  ///< number of strongest segments kept
 constexpr double kTwoPi = 6.283185307179586;
@@ -23,12 +23,6 @@ constexpr double kVotes = 0.7;           ///< votes that start a segment [pixels
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
-
-// Direction of the line through the moments, oriented as `like`.
-Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
-  const Vector2d along = moments.along();
-  return along.dot(like) < 0.0 ? Vector2d(-along) : along;
-}
 
 // Joins collinear pairs into additional segments; the pieces stay.
 void joinCollinear(std::vector<Segment>& segments, double off_line_px) {
@@ -74,41 +68,34 @@ void HoughSegments::prepare(const cv::Size& level) {
       normals_.emplace_back(std::cos(k * kTwoPi / kAngles), std::sin(k * kTwoPi / kAngles));
 }
 
-// Cell of the line at this angle through the middle of a run.
-int HoughSegments::cellOf(const Vector2d& middle, int angle) const {
+// Cell of the line at this angle through a point.
+int HoughSegments::cellOf(const Vector2d& point, int angle) const {
   const int a = (angle + kAngles) % kAngles;
-  const double rho = normals_[a].dot(middle - centre_) / kRhoStepPx + 0.5 * rhos_;
+  const double rho = normals_[a].dot(point - centre_) / kRhoStepPx + 0.5 * rhos_;
   return a * rhos_ + std::clamp(static_cast<int>(rho), 0, rhos_ - 1);
 }
 
-// Each run votes for all angles within the uncertainty of its direction.
+// Each run votes for all angles within the uncertainty of its direction. Voters are listed by counting sort.
 void HoughSegments::vote(const std::vector<EdgeChain>& runs) {
-  ballots_.resize(runs.size());
-  middles_.resize(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    middles_[i] = runs[i].moments.mean();
-    const double angle = std::atan2(runs[i].normal.y(), runs[i].normal.x()) * kAngles / kTwoPi;
-    const double open = kDirectionPx / runs[i].moments.n * kAngles / kTwoPi;
-    ballots_[i] = {static_cast<int>(std::lround(angle - open)), static_cast<int>(std::lround(angle + open))};
-  }
-  countVotes(runs);
-}
-
-// Votes and voter lists of all cells, by counting sort.
-void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
   const std::size_t cells = static_cast<std::size_t>(kAngles) * rhos_;
   votes_.assign(cells, 0.0F);
   starts_.assign(cells + 2, 0);
   cells_.clear();
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k) {
-      const int cell = cellOf(middles_[i], k);
+  ballots_.clear();
+  for (const EdgeChain& run : runs) {
+    const double angle = std::atan2(run.normal.y(), run.normal.x()) * kAngles / kTwoPi;
+    const double open = kDirectionPx / run.moments.n * kAngles / kTwoPi;
+    ballots_.push_back({run.moments.mean(), static_cast<int>(std::lround(angle - open)),
+                        static_cast<int>(std::lround(angle + open))});
+    for (int k = ballots_.back().first_angle; k <= ballots_.back().last_angle; ++k) {
+      const int cell = cellOf(ballots_.back().middle, k);
       cells_.push_back(cell);
-      votes_[cell] += static_cast<float>(runs[i].moments.n);
+      votes_[cell] += static_cast<float>(run.moments.n);
       ++starts_[cell + 2];
     }
-  for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
-  voters_.resize(starts_.back());
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  voters_.resize(cells_.size());
   const int* cell = cells_.data();
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k)
@@ -118,16 +105,16 @@ void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
 // Runs that voted for the seed's line or an adjacent one, ordered along it.
 void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
   members_.clear();
-  const EdgeChain& own = runs[seed];
-  const Vector2d along = (own.b - own.a).normalized(), across = right(along), mean = middles_[seed];
-  for (int angle = ballots_[seed].first_angle; angle <= ballots_[seed].last_angle; ++angle) {
-    const int cell = cellOf(mean, angle), row = cell / rhos_ * rhos_;
+  const auto [middle, first_angle, last_angle] = ballots_[seed];
+  const Vector2d along = (runs[seed].b - runs[seed].a).normalized(), across = right(along);
+  for (int angle = first_angle; angle <= last_angle; ++angle) {
+    const int cell = cellOf(middle, angle), row = cell / rhos_ * rhos_;
     for (int c = std::max(row, cell - 1); c <= std::min(row + rhos_ - 1, cell + 1); ++c)
       for (int v = starts_[c]; v < starts_[c + 1]; ++v) {
         const int i = voters_[v];
         if (used_[i] || asked_[i] == seed) continue;
         asked_[i] = seed;
-        const Vector2d apart = middles_[i] - mean;
+        const Vector2d apart = ballots_[i].middle - middle;
         const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
         if (i == seed || off > 2.0 * off_line_px_ + (kSpread + kLineBow) * std::abs(ahead)) continue;
         const double half = 0.5 * runs[i].moments.n;
@@ -168,7 +155,9 @@ bool HoughSegments::grow(const std::vector<EdgeChain>& runs, int seed, Segment& 
   double high = before.dot(own.b - start), low = before.dot(own.a - start);
   extend(runs, 1, moments, high);
   extend(runs, -1, moments, low);
-  const Vector2d along = alongLike(moments, before), mean = moments.mean();
+  const Vector2d mean = moments.mean();
+  Vector2d along = moments.along();
+  if (along.dot(before) < 0.0) along = -along;
   low = high = 0.0;
   segment.contrast = 0.0;
   for (int i : taken_) {
@@ -188,15 +177,15 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   segments_.clear();
   used_.assign(runs.size(), 0);
   asked_.assign(runs.size(), -1);
-  order_.clear();
-  for (std::size_t i = 0; i < runs.size(); ++i) order_.emplace_back(-runs[i].moments.n, static_cast<int>(i));
-  std::sort(order_.begin(), order_.end());
-  const double enough = kVotes * min_length_px_;
-  for (const auto& [pixels, seed] : order_) {
+  std::vector<int> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&runs](int i, int k) { return runs[i].moments.n > runs[k].moments.n; });
+  for (int seed : order) {
     if (runs[seed].moments.n < kMinSeed * min_length_px_) break;
-    if (used_[seed]) continue;
-    if (votes_[cellOf(middles_[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
-      continue;
+    const auto& [middle, first_angle, last_angle] = ballots_[seed];
+    const float votes = votes_[cellOf(middle, (first_angle + last_angle) / 2)];
+    if (used_[seed] || votes < kVotes * min_length_px_) continue;
     Segment segment;
     if (!grow(runs, seed, segment)) continue;
     for (int i : taken_) used_[i] = 1;
@@ -208,16 +197,15 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   return segments_;
 }
 
-void keepOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
-                    cv::Mat& edges) {
-  edges.create(level, CV_8UC1);
-  edges.setTo(0);
+cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level) {
+  cv::Mat edges = cv::Mat::zeros(level, CV_8UC1);
   for (std::size_t i = 0; i < runs.runs().size(); ++i) {
     if (!lines.onSegment()[i]) continue;
-    const EdgeChain& run = runs.runs()[i];
-    for (int k = run.first; k < run.first + run.count; ++k)
-      edges.ptr(runs.pixels()[k].y)[runs.pixels()[k].x] = 255;
+    const auto first = runs.pixels().begin() + runs.runs()[i].first;
+    std::for_each(first, first + runs.runs()[i].count,
+                  [&edges](const auto& p) { edges.ptr(p.y)[p.x] = 255; });
   }
+  return edges;
 }
 
 }  // namespace window_ingress::detection

@@ -41,7 +41,8 @@ class HoughSegments {
   static constexpr double kRhoStepPx = 3.0;
 
   struct Ballot {
-    int first_angle = 0, last_angle = 0;  ///< angles of a run's votes, modulo kAngles
+    Eigen::Vector2d middle;               ///< of a run
+    int first_angle = 0, last_angle = 0;  ///< of its votes, modulo kAngles
   };
   struct Member {
     double from = 0.0, to = 0.0;  ///< position along the candidate line
@@ -50,8 +51,7 @@ class HoughSegments {
 
   void prepare(const cv::Size& level);
   void vote(const std::vector<EdgeChain>& runs);
-  void countVotes(const std::vector<EdgeChain>& runs);
-  int cellOf(const Eigen::Vector2d& middle, int angle) const;
+  int cellOf(const Eigen::Vector2d& point, int angle) const;
   void collect(const std::vector<EdgeChain>& runs, int seed);
   bool grow(const std::vector<EdgeChain>& runs, int seed, Segment& segment);
   void extend(const std::vector<EdgeChain>& runs, int way, LineMoments& moments, double& end);
@@ -61,12 +61,10 @@ class HoughSegments {
   int rhos_ = 0;
   double min_length_px_ = 0.0, max_gap_px_ = 0.0, off_line_px_ = 0.0;
   std::vector<Eigen::Vector2d> normals_;  ///< of the angles
-  std::vector<Eigen::Vector2d> middles_;  ///< of the runs
   std::vector<Ballot> ballots_;           ///< one per run
   std::vector<float> votes_;              ///< of the cells [px]
   std::vector<int> cells_;                ///< of all votes, run by run
   std::vector<int> starts_, voters_;      ///< voters of cell c: from starts_[c] to starts_[c + 1]
-  std::vector<std::pair<double, int>> order_;
   std::vector<std::uint8_t> used_;
   std::vector<int> asked_;  ///< seed that last considered each run
   std::vector<Member> members_;
@@ -75,8 +73,7 @@ class HoughSegments {
 };
 
 /// Keeps the part of an edge map that lies on the segments found: Hough selects (P4), it does not draw.
-/// \param runs and \param lines after their last call \param edges CV_8UC1, result, 0 or 255
-void keepOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
-                    cv::Mat& edges);
+/// \param runs and \param lines after their last call \return CV_8UC1, 0 or 255
+cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level);
 
 }  // namespace window_ingress::detection

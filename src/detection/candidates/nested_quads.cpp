@@ -12,12 +12,11 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr double kContinued =
-    22.0;  ///< an inner loop belongs to the frame if its ring's colour differs less [grey levels]
-constexpr double kMaxRing = 0.25;   ///< width of a frame [mean sides of its outer border]
-constexpr double kRingRatio = 3.0;  ///< widest over narrowest side of a frame
-constexpr double kUniform = 22.0;   ///< colours of a frame's four sides differ less than this [grey levels]
-constexpr double kMaxPanes = 40.0;  ///< area of a window over the area of its smallest pane
+constexpr double kContinued = 22.0;  ///< the rings of one frame differ less in colour [grey levels]
+constexpr double kMaxRing = 0.25;    ///< width of a frame [mean sides of its outer border]
+constexpr double kRingRatio = 3.0;   ///< widest over narrowest side of a frame
+constexpr double kUniform = 22.0;    ///< colours of a frame's four sides differ less than this [grey levels]
+constexpr double kMaxPanes = 40.0;   ///< area of a window over the area of its smallest pane
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 constexpr int kRingSamples = 24;
 
@@ -40,19 +39,17 @@ bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tol
   return true;
 }
 
-// Mean colour in the middle of one side of the ring. Returns its spread along the side.
-double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner, int i,
-                  cv::Vec3d& mean) {
-  std::array<cv::Vec3d, kRingSamples> values;
-  mean = cv::Vec3d();
-  const Vector2d a = 0.5 * (outer[i] + inner[i]), b = 0.5 * (outer[(i + 1) % 4] + inner[(i + 1) % 4]);
-  for (int k = 0; k < kRingSamples; ++k) {
-    values[k] = colourAt(image, a + (b - a) * (0.1 + 0.8 * (k + 0.5) / kRingSamples));
-    mean += values[k] * (1.0 / kRingSamples);
+// True if `inner` lies within `outer` with a border of about the same width all round.
+bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
+  if (!isWithin(outer, inner, 0.0)) return false;
+  double least = 1e9, most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double width = depth(outer, i, 0.5 * (inner[i] + inner[(i + 1) % 4]));
+    least = std::min(least, width);
+    most = std::max(most, width);
   }
-  double squares = 0.0;
-  for (const cv::Vec3d& value : values) squares += (value - mean).dot(value - mean);
-  return std::sqrt(squares / kRingSamples);
+  return most <= kMaxRing * geometry::meanSide(outer) + tolerance_px && most > tolerance_px &&
+         most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
 /// Colour of the ring between two loops, in the middle of its sides.
@@ -65,7 +62,15 @@ RingBetween ringBetween(const cv::Mat& image, const Quadrilateral& outer, const 
   RingBetween ring;
   std::array<cv::Vec3d, 4> sides;
   for (int i = 0; i < 4; ++i) {
-    ring.spread = std::max(ring.spread, sideColour(image, outer, inner, i, sides[i]));
+    const Vector2d a = 0.5 * (outer[i] + inner[i]), b = 0.5 * (outer[(i + 1) % 4] + inner[(i + 1) % 4]);
+    std::array<cv::Vec3d, kRingSamples> values;
+    for (int k = 0; k < kRingSamples; ++k) {
+      values[k] = colourAt(image, a + (b - a) * (0.1 + 0.8 * (k + 0.5) / kRingSamples));
+      sides[i] += values[k] * (1.0 / kRingSamples);
+    }
+    double squares = 0.0;
+    for (const cv::Vec3d& value : values) squares += (value - sides[i]).dot(value - sides[i]);
+    ring.spread = std::max(ring.spread, std::sqrt(squares / kRingSamples));
     ring.colour += 0.25 * sides[i];
   }
   for (const cv::Vec3d& side : sides) ring.spread = std::max(ring.spread, cv::norm(side - ring.colour));
@@ -73,18 +78,6 @@ RingBetween ringBetween(const cv::Mat& image, const Quadrilateral& outer, const 
 }
 
 }  // namespace
-
-bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
-  if (!isWithin(outer, inner, 0.0)) return false;
-  double least = 1e9, most = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const double width = depth(outer, i, 0.5 * (inner[i] + inner[(i + 1) % 4]));
-    least = std::min(least, width);
-    most = std::max(most, width);
-  }
-  return most <= kMaxRing * geometry::meanSide(outer) + tolerance_px && most > tolerance_px &&
-         most + tolerance_px <= kRingRatio * (least + tolerance_px);
-}
 
 void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& candidates) {
   const double tolerance_px = kLoopTolerancePx * factor;

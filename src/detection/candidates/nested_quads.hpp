@@ -7,11 +7,6 @@
 
 namespace window_ingress::detection {
 
-/// True if `inner` lies within `outer` with a border of about the same width all round.
-/// \param tolerance_px uncertainty of that width [px]
-bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrilateral& inner,
-                  double tolerance_px);
-
 /// Chooses among nested loops by their geometry alone, and sets their verdicts. Among concentric loops the
 /// front inner border of the opening wins: the search goes inwards from the outermost loop while the ring in
 /// between is uniform. The four sides of a frame are uniform (same plane, same paint), those of a reveal are

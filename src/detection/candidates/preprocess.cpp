@@ -21,84 +21,80 @@ constexpr double kSigmaPx = 1.0;         ///< of the smoothing: differences betw
 constexpr double kMeanOver = 1.0 / 3.0;  ///< side of the averaging square [longer level sides]
 constexpr int kMinSidePx = 16;           ///< of a level; narrow strips are not reduced below this
 
+void equalise(cv::Mat& image) {
+  const auto clahe = cv::createCLAHE(kClipLimit, cv::Size(kTiles, kTiles));
+  if (image.channels() == 1) return clahe->apply(image, image);
+  cv::Mat lab, lightness;
+  cv::cvtColor(image, lab, cv::COLOR_BGR2Lab);
+  cv::extractChannel(lab, lightness, 0);
+  clahe->apply(lightness, lightness);
+  cv::insertChannel(lightness, lab, 0);
+  cv::cvtColor(lab, image, cv::COLOR_Lab2BGR);
+}
+
 }  // namespace
 
-SearchLevel Preprocess::run(const cv::Mat& image) {
-  SearchLevel level;
-  cv::Mat current = image;
-  for (int i = 0; std::max(current.cols, current.rows) > params_.search_side_px; i ^= 1) {
-    if (std::min(current.cols, current.rows) / 2 < kMinSidePx) break;
-    halve(current, levels_[i]);
-    current = levels_[i];
-    level.factor *= 2;
+std::optional<geometry::PinholeCamera> lensOfLevel(const geometry::PinholeCamera* camera,
+                                                   const SearchLevel& level) {
+  if (!geometry::lensOf(camera)) return std::nullopt;
+  geometry::PinholeCamera lens = *camera;
+  const double factor = level.factor, shift = 0.5 * (factor - 1.0);
+  lens.width = level.image.cols, lens.height = level.image.rows;
+  lens.fx /= factor, lens.fy /= factor;
+  lens.cx = (lens.cx - shift) / factor, lens.cy = (lens.cy - shift) / factor;
+  return lens;
+}
+
+SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params) {
+  SearchLevel level{image, 1};
+  while (std::max(level.image.cols, level.image.rows) > params.search_side_px &&
+         std::min(level.image.cols, level.image.rows) / 2 >= kMinSidePx) {
+    cv::Mat half;
+    halve(level.image, half);
+    level = {half, 2 * level.factor};
   }
-  if (params_.blur_sigma_px > 0.0)
-    cv::GaussianBlur(current, smooth_, cv::Size(), params_.blur_sigma_px, params_.blur_sigma_px,
-                     cv::BORDER_REPLICATE);
+  const double sigma_px = params.blur_sigma_px;
+  cv::Mat smooth;
+  if (sigma_px > 0.0)
+    cv::GaussianBlur(level.image, smooth, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
   else
-    current.copyTo(smooth_);
-  if (params_.equalise) equalise(smooth_);
-  level.image = smooth_;
+    level.image.copyTo(smooth);
+  if (params.equalise) equalise(smooth);
+  level.image = smooth;
   return level;
 }
 
-const cv::Mat& Preprocess::coloursAlone() {
-  colours_.release();
-  if (smooth_.channels() != 3) return colours_;
+cv::Mat coloursAlone(const cv::Mat& level) {
+  cv::Mat colours;
+  if (level.channels() != 3) return colours;
   const float half = static_cast<float>(0.5 * kColourGain), middle = 128.0F;
   const cv::Matx34f differences(0.0F, -half, half, middle,                 //
                                 half, -0.5F * half, -0.5F * half, middle,  //
                                 -half, 0.0F, half, middle);
-  cv::transform(smooth_, colours_, differences);
-  return colours_;
+  cv::transform(level, colours, differences);
+  return colours;
 }
 
-const cv::Mat& Preprocess::paintAlone(const Eigen::Vector3f& paint) {
-  if (smooth_.channels() != 3) {
-    colours_.release();
-    return colours_;
-  }
-  colours_.create(smooth_.size(), CV_8UC1);
-  for (int y = 0; y < smooth_.rows; ++y) {
-    const auto* pixels = smooth_.ptr<cv::Vec3b>(y);
-    auto* painted = colours_.ptr<std::uint8_t>(y);
-    for (int x = 0; x < smooth_.cols; ++x) {
-      const Eigen::Vector3f pixel(pixels[x][0], pixels[x][1], pixels[x][2]);
-      painted[x] = cv::saturate_cast<std::uint8_t>(kUnpainted + kPaintGain * paint.dot(chromaticity(pixel)));
-    }
-  }
-  cv::GaussianBlur(colours_, colours_, cv::Size(), kPaintSigmaPx, kPaintSigmaPx, cv::BORDER_REPLICATE);
-  return colours_;
+cv::Mat paintAlone(const cv::Mat& level, const Eigen::Vector3f& paint) {
+  if (level.channels() != 3) return {};
+  cv::Mat painted(level.size(), CV_8UC1);
+  std::transform(
+      level.begin<cv::Vec3b>(), level.end<cv::Vec3b>(), painted.begin<std::uint8_t>(),
+      [&paint](const cv::Vec3b& bgr) {
+        const Eigen::Vector3f pixel(bgr[0], bgr[1], bgr[2]);
+        return cv::saturate_cast<std::uint8_t>(kUnpainted + kPaintGain * paint.dot(chromaticity(pixel)));
+      });
+  cv::GaussianBlur(painted, painted, cv::Size(), kPaintSigmaPx, kPaintSigmaPx, cv::BORDER_REPLICATE);
+  return painted;
 }
 
-void Preprocess::equalise(cv::Mat& image) {
-  const auto clahe = cv::createCLAHE(kClipLimit, cv::Size(kTiles, kTiles));
-  if (image.channels() == 1) {
-    clahe->apply(image, image);
-    return;
-  }
-  cv::cvtColor(image, lab_, cv::COLOR_BGR2Lab);
-  cv::Mat lightness;
-  cv::extractChannel(lab_, lightness, 0);
-  clahe->apply(lightness, lightness);
-  cv::insertChannel(lightness, lab_, 0);
-  cv::cvtColor(lab_, image, cv::COLOR_Lab2BGR);
-}
-
-void BlobMasks::take(const cv::Mat& level, int channel) {
-  cv::extractChannel(level, channel_, channel);
-  cv::GaussianBlur(channel_, channel_, cv::Size(), kSigmaPx, kSigmaPx, cv::BORDER_REPLICATE);
+std::array<cv::Mat, 2> blobMasks(const cv::Mat& level, int channel, double contrast) {
+  cv::Mat smooth, mean;
+  cv::extractChannel(level, smooth, channel);
+  cv::GaussianBlur(smooth, smooth, cv::Size(), kSigmaPx, kSigmaPx, cv::BORDER_REPLICATE);
   const int side = static_cast<int>(kMeanOver * std::max(level.cols, level.rows)) | 1;
-  cv::boxFilter(channel_, mean_, -1, cv::Size(side, side));
-}
-
-const cv::Mat& BlobMasks::run(Sign sign, double contrast) {
-  if (sign == Sign::kAbove)
-    cv::subtract(channel_, mean_, difference_);
-  else
-    cv::subtract(mean_, channel_, difference_);
-  cv::compare(difference_, contrast, mask_, cv::CMP_GT);
-  return mask_;
+  cv::boxFilter(smooth, mean, -1, cv::Size(side, side));
+  return {smooth - mean > contrast, mean - smooth > contrast};
 }
 
 }  // namespace window_ingress::detection

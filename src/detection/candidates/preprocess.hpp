@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
@@ -18,46 +21,27 @@ inline Eigen::Vector2d toFullImage(const Eigen::Vector2d& level_px, int factor) 
   return factor * level_px + Eigen::Vector2d::Constant(0.5 * (factor - 1));
 }
 
+/// The camera of a search level if its lens distorts the image, so that straight borders are straight lines
+/// in the undistorted level only. Points are undistorted, never the image. \param camera of the image, may be
+/// null
+std::optional<geometry::PinholeCamera> lensOfLevel(const geometry::PinholeCamera* camera,
+                                                   const SearchLevel& level);
+
 /// Noise removal and reduction (P2): pyramid down to the search level by pixel averages, Gaussian blur,
-/// histogram equalisation.
-class Preprocess {
- public:
-  explicit Preprocess(const PreprocessParams& params) : params_(params) {}
+/// histogram equalisation. \param image CV_8UC1 or CV_8UC3, not empty; not shared
+SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params);
 
-  /// \param image CV_8UC1 or CV_8UC3, not empty. The result may share the object's buffers until the next
-  /// call.
-  SearchLevel run(const cv::Mat& image);
+/// A level without brightness (P23): CV_8UC3, differences between its channels about 128. Empty if it has no
+/// colours.
+cv::Mat coloursAlone(const cv::Mat& level);
 
-  /// The last level without brightness (P23): CV_8UC3, differences between its channels about 128. Empty if
-  /// it has no colours.
-  const cv::Mat& coloursAlone();
+/// A level as the strength of one paint, independent of the light: CV_8UC1, 100 where a pixel's chromaticity
+/// has none of it. Empty if it has no colours. \param paint direction of chromaticity, see `RingMeans::paint`
+cv::Mat paintAlone(const cv::Mat& level, const Eigen::Vector3f& paint);
 
-  /// The last level as the strength of one paint, independent of the light: CV_8UC1, 100 where a pixel's
-  /// chromaticity has none of it. Empty if it has no colours. \param paint direction of chromaticity, see
-  /// `RingMeans::paint`
-  const cv::Mat& paintAlone(const Eigen::Vector3f& paint);
-
- private:
-  void equalise(cv::Mat& image);
-
-  PreprocessParams params_;
-  cv::Mat levels_[2], smooth_, lab_, colours_;
-};
-
-/// Regions of one channel that stand out from their surroundings, however weak or broken their edges are.
-class BlobMasks {
- public:
-  enum class Sign { kAbove, kBelow };
-
-  /// Sets the channel for `run`. \param level CV_8UC1 or CV_8UC3
-  void take(const cv::Mat& level, int channel);
-
-  /// Mask of pixels above, or below, the mean of the surrounding square by more than `contrast`: CV_8UC1, 0
-  /// or 255. Valid until the next call. \param contrast [grey levels]
-  const cv::Mat& run(Sign sign, double contrast);
-
- private:
-  cv::Mat channel_, mean_, difference_, mask_;
-};
+/// Masks of the regions of one channel that stand out from their surroundings, however weak or broken their
+/// edges are: pixels above, and pixels below, the mean of the surrounding square by more than `contrast`.
+/// CV_8UC1, 0 or 255. \param level CV_8UC1 or CV_8UC3 \param contrast [grey levels]
+std::array<cv::Mat, 2> blobMasks(const cv::Mat& level, int channel, double contrast);
 
 }  // namespace window_ingress::detection

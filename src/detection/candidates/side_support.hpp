@@ -6,12 +6,13 @@
 
 #include "detection/candidates/candidate.hpp"
 #include "detection/candidates/canny_edges.hpp"
-#include "detection/candidates/undistortion_map.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
 /// How well the sides of a quadrilateral in the undistorted level lie on straight edges.
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const UndistortionMap& lens,
+/// \param lens camera of the level; null: no distortion
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const geometry::PinholeCamera* lens,
                                         const geometry::Quadrilateral& quad);
 
 /// How well the sides lie on the outline of a blob, however weak its edge. Does not measure overshoot beyond

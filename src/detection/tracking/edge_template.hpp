@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "detection/borders/edge_profiles.hpp"
-#include "detection/borders/robust_line_fit.hpp"
+#include "detection/borders/lines.hpp"
 
 namespace window_ingress::detection {
 

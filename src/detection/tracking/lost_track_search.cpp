@@ -31,7 +31,7 @@ std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInp
                    [](const auto* a, const auto* b) { return a->score > b->score; });
   for (const CandidateTrace* other : others) {
     if (Sameness(other->quad).sameWindow(found.corners)) return found;
-    const auto borders = refinement.run(input.image, {other->quad, kVariantRadiusPx}, input.camera);
+    const auto borders = refineBorders(input.image, {other->quad, kVariantRadiusPx}, input.camera);
     if (borders) return observationOf(*other, *borders, input.stamp_sec);
   }
   return std::nullopt;

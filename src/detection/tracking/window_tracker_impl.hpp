@@ -64,7 +64,6 @@ struct WindowTracker::Impl {
 
   DetectorParams params;
   WindowDetector detector;
-  BorderRefinement refinement;
   ImageSequence images;
   AppearanceMonitor reference;
   QuadMotion motion;

@@ -92,38 +92,34 @@ cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace,
 
 void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const detection::EdgeMap& map,
               const DetectorParams& params, ContactSheet& sheet) {
-  detection::CannyEdges plain(params.edges);
   sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
-  sheet.add(plain.run(image).edges, "P3 edges without preprocessing");
+  sheet.add(detection::cannyEdges(image, params.edges).edges, "P3 edges without preprocessing");
   sheet.add(map.edges,
             cv::format("P2, P3 edges of the search level, %d x %d", level.image.cols, level.image.rows));
 }
 
 void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet& sheet) {
-  detection::Preprocess preprocess(params.preprocess);
-  detection::CannyEdges edges(params.edges);
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
-  detection::UndistortionMap lens;  // no calibration: the image counts as free of distortion
-  detection::EdgeDilation dilation(params.closing);
-  detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);
-  const detection::SearchLevel level = preprocess.run(image);
-  const detection::EdgeMap& map = edges.run(level.image);
+  const detection::SearchLevel level = detection::preprocess(image, params.preprocess);
+  const detection::EdgeMap map = detection::cannyEdges(level.image, params.edges);
   addEdges(image, level, map, params, sheet);
-  lens.set(nullptr, level.image.size(), level.factor);
-  const auto& segments = lines.run(runs.run(map, lens), level.image.size());
+  // Without a calibration the image counts as free of distortion.
+  const auto& segments = lines.run(runs.run(map, nullptr), level.image.size());
   sheet.add(drawSegments(level.image, segments),
             cv::format("P4 straight segments, colour: direction (%d)", static_cast<int>(segments.size())));
-  cv::Mat straight;
-  keepOnSegments(runs, lines, level.image.size(), straight);
-  const cv::Mat closed = dilation.run(straight);
-  sheet.add(closed, cv::format("P6 closed, %d px", dilation.radiusPx(level.image.size())));
-  const auto outlines = contours.run(closed, dilation.radiusPx(level.image.size()));
+  cv::Mat closed;
+  const int dilation_px =
+      detection::closeGaps(edgesOnSegments(runs, lines, level.image.size()), params.closing, closed);
+  sheet.add(closed, cv::format("P6 closed, %d px", dilation_px));
+  detection::Outlines outlines;
+  detection::addOutlines(closed, dilation_px, params.contours, detection::CandidateSource::kContour,
+                         outlines);
   sheet.add(drawOutlines(closed, outlines.candidates),
             cv::format("P7 contours (%d), polygons with four sides (%d)", outlines.contours,
                        static_cast<int>(outlines.candidates.size())));
-  const auto& found =
+  const auto found =
       quads.run(segments, params.gates.min_area * level.image.size().area(), detection::SegmentQuads::kQuick);
   sheet.add(drawQuads(level.image, found.candidates),
             cv::format("P4, P7 quadrilaterals of segments (%d)", static_cast<int>(found.candidates.size())));

@@ -16,7 +16,6 @@ geometry::Quadrilateral jittered(const geometry::Quadrilateral& quad, std::mt199
 }
 
 TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
-  const BorderRefinement refinement;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   double squares = 0.0, bias = 0.0;
@@ -28,7 +27,7 @@ TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
     drawn.opening =
         test::turned(test::rectangle(x, y, x + 60 + 100 * uniform(random), y + 50 + 80 * uniform(random)),
                      0.5 * (uniform(random) - 0.5), 0.3 * (uniform(random) - 0.5));
-    const auto borders = refinement.run(drawn.draw(), {jittered(drawn.opening, random, 1.5), 3.0}, nullptr);
+    const auto borders = refineBorders(drawn.draw(), {jittered(drawn.opening, random, 1.5), 3.0}, nullptr);
     ASSERT_TRUE(borders) << i;
     EXPECT_LT(test::worstCorner(borders->corners, drawn.opening), 0.15) << i;
     for (int k = 0; k < 4; ++k) squares += (borders->corners[k] - drawn.opening[k]).squaredNorm() / 8.0;
@@ -40,7 +39,6 @@ TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
 }
 
 TEST(BorderRefinement, TellsItsOwnErrorWithinAFactor) {
-  const BorderRefinement refinement;
   std::mt19937 random(5);
   for (double noise : {2.0, 8.0, 16.0}) {
     double mahalanobis = 0.0;
@@ -49,7 +47,7 @@ TEST(BorderRefinement, TellsItsOwnErrorWithinAFactor) {
       test::DrawnWindow drawn;
       drawn.width = 200, drawn.height = 160, drawn.noise = noise, drawn.seed = 100 + i;
       drawn.opening = test::turned(test::rectangle(50.3, 40.2, 150.1, 120.4), 0.05 + 0.01 * i, 0.1);
-      const auto borders = refinement.run(drawn.draw(), {jittered(drawn.opening, random, 1.0), 3.0}, nullptr);
+      const auto borders = refineBorders(drawn.draw(), {jittered(drawn.opening, random, 1.0), 3.0}, nullptr);
       ASSERT_TRUE(borders);
       for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d error = borders->corners[k] - drawn.opening[k];
@@ -76,11 +74,10 @@ TEST(BorderRefinement, BordersAreStraightInTheUndistortedImage) {
     }
   geometry::Quadrilateral truth;
   for (int i = 0; i < 4; ++i) truth[i] = camera.distort(ideal[i]);
-  const BorderRefinement refinement;
-  const auto with = refinement.run(image, {truth, 3.0}, &camera);
+  const auto with = refineBorders(image, {truth, 3.0}, &camera);
   ASSERT_TRUE(with);
   EXPECT_LT(test::worstCorner(with->corners, truth), 0.1);
-  const auto without = refinement.run(image, {truth, 3.0}, nullptr);
+  const auto without = refineBorders(image, {truth, 3.0}, nullptr);
   EXPECT_TRUE(!without || test::worstCorner(without->corners, truth) > 0.5);
 }
 
@@ -88,7 +85,7 @@ TEST(BorderRefinement, ColoursOfEqualBrightnessDo) {
   cv::Mat image(200, 260, CV_8UC3, cv::Scalar(180, 100, 60));
   const auto quad = test::turned(test::rectangle(60, 50, 180, 140), 0.1, 0.0);
   test::fillQuad(image, quad, cv::Scalar(60, 118, 90));
-  const auto borders = BorderRefinement().run(image, {test::grown(quad, 1.0), 3.0}, nullptr);
+  const auto borders = refineBorders(image, {test::grown(quad, 1.0), 3.0}, nullptr);
   ASSERT_TRUE(borders);
   EXPECT_LT(test::worstCorner(borders->corners, quad), 0.1);
 }
@@ -98,13 +95,12 @@ TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
   const auto opening = test::rectangle(80, 60, 240, 180);
   test::fillQuad(image, opening, cv::Scalar(60));
   image.rowRange(165, 240).setTo(60);
-  const BorderRefinement refinement;
   double inliers = 1.0;
-  EXPECT_FALSE(refinement.run(image, {opening, 3.0}, nullptr, &inliers));
+  EXPECT_FALSE(refineBorders(image, {opening, 3.0}, nullptr, &inliers));
   EXPECT_LT(inliers, 0.45);
   BorderStart start{opening, 3.0};
   start.knowAll(0.7);
-  const auto borders = refinement.run(image, start, nullptr);
+  const auto borders = refineBorders(image, start, nullptr);
   ASSERT_TRUE(borders);
   EXPECT_DOUBLE_EQ(borders->edges[geometry::kBottom].sigma_px, 0.7);
   EXPECT_LT(borders->edges[geometry::kTop].sigma_px, 0.1);
@@ -117,7 +113,7 @@ TEST(BorderRefinement, ASideThatWasLocatedTurnedIsFittedWhereItShows) {
     BorderStart start{drawn.opening, 2.5};
     start.knowAll(1.0);
     start.quad[0].y() += turned_px, start.quad[1].y() -= turned_px;
-    const auto borders = BorderRefinement().run(drawn.draw(), start, nullptr);
+    const auto borders = refineBorders(drawn.draw(), start, nullptr);
     ASSERT_TRUE(borders);
     EXPECT_LT(test::worstCorner(borders->corners, drawn.opening), 0.15) << turned_px;
   }
@@ -130,7 +126,7 @@ struct KnownStart {
     start.quad[0].x() += off_px, start.quad[3].x() += off_px;
     start.knowAll(sigma_px);
   }
-  std::optional<RefinedBorders> fit() const { return BorderRefinement().run(image, start, nullptr); }
+  std::optional<RefinedBorders> fit() const { return refineBorders(image, start, nullptr); }
   double left_px(const RefinedBorders& borders) const { return borders.corners[0].x() - opening[0].x(); }
 
   geometry::Quadrilateral opening = test::rectangle(80, 60, 240, 180);
@@ -169,11 +165,10 @@ TEST(BorderRefinement, AnUnknownSideMustShowItsBorder) {
 }
 
 TEST(BorderRefinement, NothingFromPlainImagesTinyOrOutsideQuads) {
-  const BorderRefinement refinement;
   const cv::Mat plain(100, 100, CV_8UC3, cv::Scalar::all(80));
-  EXPECT_FALSE(refinement.run(plain, {test::rectangle(20, 20, 80, 80), 3.0}, nullptr));
-  EXPECT_FALSE(refinement.run(plain, {test::rectangle(20, 20, 21, 21), 3.0}, nullptr));
-  EXPECT_FALSE(refinement.run(plain, {test::rectangle(-500, -400, -300, -200), 3.0}, nullptr));
+  EXPECT_FALSE(refineBorders(plain, {test::rectangle(20, 20, 80, 80), 3.0}, nullptr));
+  EXPECT_FALSE(refineBorders(plain, {test::rectangle(20, 20, 21, 21), 3.0}, nullptr));
+  EXPECT_FALSE(refineBorders(plain, {test::rectangle(-500, -400, -300, -200), 3.0}, nullptr));
 }
 
 }  // namespace window_ingress::detection::border_refinement_test

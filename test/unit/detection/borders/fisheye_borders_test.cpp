@@ -68,12 +68,11 @@ double besideSide(const Quadrilateral& ideal, int side, const Vector2d& point) {
 
 TEST(FisheyeBorders, CornersAreLocatedToATenthOfAPixelOfTheImage) {
   const geometry::PinholeCamera lens = fisheye();
-  const BorderRefinement refinement;
   for (const double shift_px : {0.0, 3.3}) {
     const Quadrilateral ideal = opening(shift_px);
     Quadrilateral truth;
     for (int i = 0; i < 4; ++i) truth[i] = lens.distort(ideal[i]);
-    const auto borders = refinement.run(drawn(ideal, 3.0, 7), {test::grown(truth, 1.0), 3.0}, &lens);
+    const auto borders = refineBorders(drawn(ideal, 3.0, 7), {test::grown(truth, 1.0), 3.0}, &lens);
     ASSERT_TRUE(borders) << shift_px;
     EXPECT_LT(test::worstCorner(borders->corners, truth), 0.1) << shift_px;
   }

@@ -34,13 +34,12 @@ void byOpenCv(const cv::Mat& image, cv::Mat& dx, cv::Mat& dy) {
 }
 
 TEST(EdgeMap, GradientIsThatOfTheStrongestChannelWhateverTheSize) {
-  CannyEdges detector{CannyParams()};
   unsigned seed = 0;
   for (int type : {CV_8UC1, CV_8UC3})
     for (int rows : {1, 2, 3, 17, 60})
       for (int cols : {1, 2, 3, 7, 8, 9, 16, 23, 80}) {
         const cv::Mat image = noise(rows, cols, type, ++seed);
-        const EdgeMap& map = detector.run(image);
+        const EdgeMap& map = cannyEdges(image, {});
         cv::Mat dx, dy;
         byOpenCv(image, dx, dy);
         EXPECT_EQ(cv::norm(map.dx, dx, cv::NORM_INF), 0.0) << rows << " x " << cols;
@@ -50,9 +49,8 @@ TEST(EdgeMap, GradientIsThatOfTheStrongestChannelWhateverTheSize) {
 
 TEST(EdgeMap, APartOfALargerImageIsReadRowByRow) {
   const cv::Mat large = noise(50, 90, CV_8UC3, 7), part = large(cv::Rect(10, 5, 33, 20));
-  CannyEdges detector{CannyParams()};
-  const cv::Mat edges = detector.run(part).edges.clone();
-  EXPECT_EQ(cv::norm(detector.run(part.clone()).edges, edges, cv::NORM_INF), 0.0);
+  const cv::Mat edges = cannyEdges(part, {}).edges;
+  EXPECT_EQ(cv::norm(cannyEdges(part.clone(), {}).edges, edges, cv::NORM_INF), 0.0);
 }
 
 }  // namespace window_ingress::detection::canny_edges_test

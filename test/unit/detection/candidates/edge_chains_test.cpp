@@ -10,8 +10,7 @@
 namespace window_ingress::detection::edge_chains_test {
 
 const std::vector<EdgeChain>& runsOf(EdgeChains& runs, const cv::Mat& image) {
-  CannyEdges edges{CannyParams()};
-  return runs.run(edges.run(image), UndistortionMap());
+  return runs.run(cannyEdges(image, {}), nullptr);
 }
 
 TEST(EdgeChains, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {

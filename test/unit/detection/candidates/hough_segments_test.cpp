@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/preprocess.hpp"
 #include "detection/candidates/segment_quads.hpp"
 #include "detection/candidates/side_support.hpp"
 #include "drawn_window.hpp"
@@ -15,7 +16,7 @@ namespace window_ingress::detection::hough_segments_test {
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
-  return lines.run(runs.run(map, UndistortionMap()), map.edges.size());
+  return lines.run(runs.run(map, nullptr), map.edges.size());
 }
 
 cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
@@ -26,10 +27,9 @@ cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
 }
 
 TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {
-  CannyEdges edges{CannyParams()};
   for (double angle : {0.0, 0.1, 0.35, -0.6, 1.3}) {
     const auto opening = test::turned(test::rectangle(100, 70, 220, 170), angle, 0.1);
-    const auto segments = segmentsOf(edges.run(window(opening)));
+    const auto segments = segmentsOf(cannyEdges(window(opening), {}));
     for (int i = 0; i < 4; ++i) {
       const Eigen::Vector2d a = opening[i], along = (opening[(i + 1) % 4] - a).normalized();
       const double length = (opening[(i + 1) % 4] - a).norm();
@@ -46,8 +46,7 @@ TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {
 TEST(HoughSegments, BrighterSideLiesOnTheRight) {
   cv::Mat image(100, 100, CV_8UC1, cv::Scalar(50));
   image(cv::Rect(50, 0, 50, 100)).setTo(200);
-  CannyEdges edges{CannyParams()};
-  const auto segments = segmentsOf(edges.run(image));
+  const auto segments = segmentsOf(cannyEdges(image, {}));
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_GT(segments[0].normal.x(), 0.99);
   EXPECT_LT(segments[0].b.y(), segments[0].a.y()) << "upwards, with the bright half on the right";
@@ -56,30 +55,26 @@ TEST(HoughSegments, BrighterSideLiesOnTheRight) {
 TEST(HoughSegments, TheTwoEdgesOfABarStayApart) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(60));
   image(cv::Rect(78, 0, 4, 120)).setTo(200);
-  CannyEdges edges{CannyParams()};
-  const auto segments = segmentsOf(edges.run(image));
+  const auto segments = segmentsOf(cannyEdges(image, {}));
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_LT(segments[0].normal.dot(segments[1].normal), -0.9);
 }
 
 TEST(HoughSegments, NoiseAndEmptyImagesGiveNoLongSegments) {
-  CannyEdges edges{CannyParams()};
-  EXPECT_TRUE(segmentsOf(edges.run(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)))).empty());
+  EXPECT_TRUE(segmentsOf(cannyEdges(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)), {})).empty());
   cv::Mat noise(240, 320, CV_8UC1, cv::Scalar(128));
   test::addNoise(noise, 40.0, 3);
-  for (const Segment& segment : segmentsOf(edges.run(noise))) EXPECT_LT(segment.length(), 60.0);
+  for (const Segment& segment : segmentsOf(cannyEdges(noise, {}))) EXPECT_LT(segment.length(), 60.0);
 }
 
 TEST(HoughSegments, OnlyWhatLiesOnSegmentsIsKept) {
-  CannyEdges edges{CannyParams()};
   cv::Mat image = window(test::rectangle(90, 60, 200, 170), 0.0);
   cv::circle(image, {270, 40}, 4, cv::Scalar(0), 1);
-  const EdgeMap& map = edges.run(image);
+  const EdgeMap& map = cannyEdges(image, {});
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
-  lines.run(runs.run(map, UndistortionMap()), map.edges.size());
-  cv::Mat kept;
-  keepOnSegments(runs, lines, map.edges.size(), kept);
+  lines.run(runs.run(map, nullptr), map.edges.size());
+  const cv::Mat kept = edgesOnSegments(runs, lines, map.edges.size());
   EXPECT_GT(cv::countNonZero(kept), 380);
   EXPECT_EQ(cv::countNonZero(kept & ~map.edges), 0) << "nothing is drawn";
   EXPECT_EQ(cv::countNonZero(kept(cv::Rect(260, 30, 20, 20))), 0) << "a small ring has no straight side";
@@ -89,15 +84,13 @@ TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
   auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.4);
   camera.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
   cv::Mat image(240, 320, CV_8UC1, cv::Scalar(200));
-  UndistortionMap lens;
-  lens.set(&camera, image.size(), 2);
+  const auto lens = lensOfLevel(&camera, {image, 2});
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
-      if (lens.undistort(x, y).x() > 285.0) image.at<uchar>(y, x) = 50;
-  CannyEdges edges{CannyParams()};
+      if (lens->undistort(Eigen::Vector2d(x, y)).x() > 285.0) image.at<uchar>(y, x) = 50;
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
-  const auto& segments = lines.run(runs.run(edges.run(image), lens), image.size());
+  const auto& segments = lines.run(runs.run(cannyEdges(image, {}), &*lens), image.size());
   ASSERT_FALSE(segments.empty());
   EXPECT_GT(segments[0].length(), 220.0);
   EXPECT_NEAR(segments[0].a.x(), 285.0, 1.0);
@@ -105,8 +98,7 @@ TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
 }
 
 TEST(HoughSegments, IsDeterministic) {
-  CannyEdges edges{CannyParams()};
-  const EdgeMap& map = edges.run(window(test::rectangle(90, 60, 200, 170), 4.0));
+  const EdgeMap& map = cannyEdges(window(test::rectangle(90, 60, 200, 170), 4.0), {});
   const auto first = segmentsOf(map), second = segmentsOf(map);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].a, second[i].a);
@@ -116,8 +108,7 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
   cv::Mat image = window(test::rectangle(90, 60, 230, 170), 0.0);
   image(cv::Rect(140, 55, 12, 12)).setTo(image.at<uchar>(5, 5));
   image(cv::Rect(84, 54, 12, 12)).setTo(image.at<uchar>(5, 5));
-  CannyEdges edges{CannyParams()};
-  const auto segments = segmentsOf(edges.run(image));
+  const auto segments = segmentsOf(cannyEdges(image, {}));
   SegmentQuads quads{SegmentQuadsParams()};
   const auto result = quads.run(segments, 1000.0, SegmentQuads::kQuick);
   ASSERT_FALSE(result.candidates.empty());
@@ -128,14 +119,13 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
 }
 
 TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
-  CannyEdges edges{CannyParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
-  const EdgeMap& map = edges.run(window(opening));
-  for (const SideSupport& side : measureSides(map, UndistortionMap(), opening)) {
+  const EdgeMap& map = cannyEdges(window(opening), {});
+  for (const SideSupport& side : measureSides(map, nullptr, opening)) {
     EXPECT_GT(side.fraction, 0.9);
     EXPECT_LT(side.overshoot, 0.1);
   }
-  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(110, 80, 210, 160)))
+  for (const SideSupport& side : measureSides(map, nullptr, test::rectangle(110, 80, 210, 160)))
     EXPECT_LT(side.fraction, 0.1);
 }
 
@@ -145,18 +135,16 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60 + 40 * i, 30}, {60 + 40 * i, 190}, cv::Scalar(20), 2);
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
-  CannyEdges edges{CannyParams()};
-  const auto cell = measureSides(edges.run(image), UndistortionMap(), test::rectangle(102, 72, 138, 108));
-  const auto grid = measureSides(edges.run(image), UndistortionMap(), test::rectangle(58, 28, 222, 192));
+  const auto cell = measureSides(cannyEdges(image, {}), nullptr, test::rectangle(102, 72, 138, 108));
+  const auto grid = measureSides(cannyEdges(image, {}), nullptr, test::rectangle(58, 28, 222, 192));
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
 TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
-  CannyEdges edges{CannyParams()};
-  const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
-  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(-500, -400, 900, 800)))
+  const EdgeMap& map = cannyEdges(window(test::rectangle(100, 70, 220, 170)), {});
+  for (const SideSupport& side : measureSides(map, nullptr, test::rectangle(-500, -400, 900, 800)))
     EXPECT_EQ(side.fraction, 0.0);
-  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(5, 5, 5, 5)))
+  for (const SideSupport& side : measureSides(map, nullptr, test::rectangle(5, 5, 5, 5)))
     EXPECT_EQ(side.fraction, 0.0);
 }
 

@@ -70,12 +70,12 @@ TEST(NestedLoops, LoopsApartDoNotMatterToEachOther) {
   EXPECT_TRUE(judge(framed(), {}).empty());
 }
 
-TEST(NestedLoops, ConcentricMeansABorderAllRound) {
-  EXPECT_TRUE(isConcentric(test::grown(kOpening, 8), kOpening, 0.6));
-  EXPECT_FALSE(isConcentric(kOpening, test::grown(kOpening, 8), 0.6));
-  EXPECT_FALSE(isConcentric(kOpening, kOpening, 0.6));
-  EXPECT_FALSE(isConcentric(test::rectangle(80, 80, 220, 170), kOpening, 0.6)) << "one side only";
-  EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6)) << "too wide for a frame";
+TEST(NestedLoops, AFrameIsABorderAllRound) {
+  for (const auto& outer : {kOpening, test::rectangle(80, 80, 220, 170), test::rectangle(10, 10, 310, 230)}) {
+    cv::Mat image(240, 320, CV_8UC3, cv::Scalar(150, 165, 175));
+    test::fillQuad(image, kOpening, cv::Scalar(30, 30, 30));
+    EXPECT_EQ(judge(image, {outer, kOpening})[0], RejectReason::kNone) << "no ring, one side only, too wide";
+  }
 }
 
 }  // namespace window_ingress::detection::nested_quads_test

@@ -79,7 +79,7 @@ TEST(SegmentQuads, TheOutlineOfAGridIsFoundBeforeItsCellsUseUpTheBudget) {
       segments.push_back(segment({50.0 + 20.0 * i + edge, 20.0}, {50.0 + 20.0 * i + edge, 200.0}));
     }
   SegmentQuads quads{SegmentQuadsParams()};
-  const auto& result = quads.run(segments, 150.0, SegmentQuads::kQuick);
+  const auto result = quads.run(segments, 150.0, SegmentQuads::kQuick);
   EXPECT_TRUE(holds(result, test::rectangle(49, 19, 231, 201)));
 }
 
@@ -90,7 +90,7 @@ TEST(SegmentQuads, StopsAtItsBudgetAndSaysSo) {
     segments.push_back(segment({50.0 + 6.0 * i, 20.0}, {50.0 + 6.0 * i, 200.0}));
   }
   SegmentQuads quads{SegmentQuadsParams()};
-  const auto& result = quads.run(segments, 100.0, {60, 500, 20, 0.01});
+  const auto result = quads.run(segments, 100.0, {60, 500, 20, 0.01});
   EXPECT_TRUE(result.budget_exceeded);
   EXPECT_LE(result.candidates.size(), 20u);
 }
@@ -101,12 +101,11 @@ TEST(SegmentQuads, ClosesWhatHasThreeSidesWhereTheyEnd) {
                                          segment({92, 170}, {208, 170})};  // above it ends earlier
   SegmentQuads quads{SegmentQuadsParams()};
   EXPECT_TRUE(quads.run(segments, 100.0, SegmentQuads::kQuick).candidates.empty());
-  const auto& open = quads.open(segments);
+  const auto open = quads.open();
   ASSERT_FALSE(open.empty());
   EXPECT_LE(open.size(), 4u);
-  EXPECT_TRUE(std::any_of(open.begin(), open.end(), [&](const geometry::Quadrilateral& one) {
-    return test::worstCorner(one, quad) < 3.0;
-  }));
+  EXPECT_TRUE(std::any_of(open.begin(), open.end(),
+                          [&](const Candidate& one) { return test::worstCorner(one.quad, quad) < 3.0; }));
 }
 
 TEST(SegmentQuads, NothingFromNothing) {

@@ -1,4 +1,4 @@
-#include "detection/borders/robust_line_fit.hpp"
+#include "detection/borders/lines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace window_ingress::detection::robust_line_fit_test {
+namespace window_ingress::detection::lines_test {
 
 /// Points along a line with noise across it; every n-th point is an outlier.
 struct Sample {
@@ -20,12 +20,8 @@ struct Sample {
       offsets.push_back(truth.at(i) + (is_outlier ? 6.0 : noise(random)));
     }
   }
-  void fit(double scale_px, OffsetLine& line) {
-    scratch.resize(2 * positions.size());
-    fitRobustLine({positions.data(), offsets.data(), scratch.data(), static_cast<int>(positions.size())},
-                  scale_px, line);
-  }
-  std::vector<double> positions, offsets, scratch;
+  void fit(double scale_px, OffsetLine& line) const { fitRobustLine(positions, offsets, scale_px, line); }
+  std::vector<double> positions, offsets;
 };
 
 TEST(RobustLine, IsExactWithoutNoiseAtEverySlope) {
@@ -59,7 +55,7 @@ TEST(RobustLine, SpreadOfManyFitsIsThatOfLeastSquares) {
 
 TEST(RobustLine, TooFewOrCoincidingPointsLeaveTheStart) {
   OffsetLine line{3.0, 0.1};
-  fitRobustLine({nullptr, nullptr, nullptr, 0}, 1.0, line);
+  fitRobustLine({}, {}, 1.0, line);
   Sample same({0.0, 0.0}, 0.0, 0, 1);
   same.positions.assign(same.positions.size(), 5.0);
   same.fit(1.0, line);
@@ -67,4 +63,4 @@ TEST(RobustLine, TooFewOrCoincidingPointsLeaveTheStart) {
   EXPECT_EQ(line.slope, 0.1);
 }
 
-}  // namespace window_ingress::detection::robust_line_fit_test
+}  // namespace window_ingress::detection::lines_test
