@@ -6,15 +6,6 @@
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
-namespace {
-
-Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double fraction) {
-  const Eigen::Quaterniond qa(a.linear()), qb(b.linear());
-  return geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
-                            a.translation() + fraction * (b.translation() - a.translation()));
-}
-
-}  // namespace
 
 bool PoseBuffer::add(double stamp_sec, const Eigen::Isometry3d& pose) {
   if (!std::isfinite(stamp_sec) || !geometry::isValidPose(pose)) return false;
@@ -41,8 +32,11 @@ std::optional<Eigen::Isometry3d> PoseBuffer::at(double stamp_sec, double max_ext
     if (std::abs(stamp_sec - nearest.stamp_sec) > max_extrapolation_sec) return std::nullopt;
     return nearest.pose;
   }
-  return between(before.pose, next.pose,
-                 (stamp_sec - before.stamp_sec) / (next.stamp_sec - before.stamp_sec));
+  const double fraction = (stamp_sec - before.stamp_sec) / (next.stamp_sec - before.stamp_sec);
+  const Eigen::Quaterniond from(before.pose.linear()), to(next.pose.linear());
+  const Eigen::Vector3d moved_m = next.pose.translation() - before.pose.translation();
+  return geometry::makePose(from.slerp(fraction, to).normalized().toRotationMatrix(),
+                            before.pose.translation() + fraction * moved_m);
 }
 
 }  // namespace window_ingress::estimation

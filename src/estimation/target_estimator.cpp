@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "estimation/target_checks.hpp"
+#include "estimation/checks/flight_checks.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
@@ -18,20 +18,6 @@ SizeEstimate sizeSaid(const PoseParams& pose) {
   return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
 
-/// Converts the filter's state for the navigator.
-TargetEstimate targetFrom(const FilteredWindow& window) {
-  TargetEstimate target;
-  target.stamp_sec = window.stamp_sec;
-  target.T_odom_window = window.T_odom_window;
-  target.covariance = window.covariance;
-  target.sign_trusted = window.sign_trusted;
-  target.updates = window.updates;
-  target.opening = window.size.size;
-  target.motion = window.motion;
-  target.pose_stamp_sec = window.stamp_sec + window.age_sec;
-  return target;
-}
-
 }  // namespace
 
 TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& filter,
@@ -39,12 +25,12 @@ TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& fil
     : params_(parameters::requireInRange(params, "tracker")),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      checks_(new Checks{{MountingCheck(pose, filter, sizeSaid(pose))},
-                         ParallaxCheck(filter.target_speed_mps),
-                         filter.mounting_yaw_sigma_rad <= kSureMountingRad}),
+      checks_(new FlightChecks{MountingCheck(pose, filter, sizeSaid(pose)),
+                               ParallaxCheck(filter.target_speed_mps)}),
       judge_(params.openness, params.needed),
       facade_(params.facade),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)),
+      mounting_is_sure_(filter.mounting_yaw_sigma_rad <= kSureMountingRad),
       attitude_sigma_rad_(filter.attitude_bias_sigma_rad) {}
 
 TargetEstimator::~TargetEstimator() = default;
@@ -53,8 +39,7 @@ TargetEstimator& TargetEstimator::operator=(TargetEstimator&&) noexcept = defaul
 
 void TargetEstimator::forgetPlaces() {
   filter_.forgetPlaces();
-  checks_->frames.forgetPlaces();
-  checks_->parallax.clear();
+  checks_->forgetPlaces();
   clocks_.forgetPlaces();
   judge_.reset();
   facade_.forgetPlaces();
@@ -69,7 +54,7 @@ void TargetEstimator::forgetPlaces() {
 void TargetEstimator::reset() {
   forgetPlaces();
   filter_.reset();
-  checks_->frames.clear();
+  checks_->clear();
   clocks_.clear();
   facade_.reset();
   handled_given_up_ = 0;
@@ -86,7 +71,7 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
     if (dt_sec >= 0.0 && isJump(dt_sec, T_odom_base)) forgetPlaces();
   }
   if (!odometry_.add(stamp_sec, T_odom_base)) return;
-  if (velocity_odom_mps) checks_->frames.twist.add(stamp_sec, T_odom_base, *velocity_odom_mps);
+  if (velocity_odom_mps) checks_->twist.add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
   // Uses only the heading rate: tilt changes within the delay, so tilt rates say nothing about the delay.
@@ -135,44 +120,44 @@ std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
   return *T_odom_base * *T_base_camera;
 }
 
-PoseResult TargetEstimator::estimate(const ObservedImage& image) {
-  return estimator_.estimate(*image.window, image.camera, {gravity(image), filter_.sizeOf(*image.window)});
-}
-
 // Findings about the size hold for one window only.
 void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   if (target_id == target_id_) return;
   target_id_ = target_id;
   checks_->parallax.clear();
   unverified_.clear();
-  checks_->frames.mounting.startAnewForAnotherTarget(target_id);
+  checks_->mounting.startAnewForAnotherTarget(target_id);
   clocks_.forgetPlaces();
 }
 
 void TargetEstimator::process(const ObservedImage& image) {
-  if (image.window) use(image);
-  rememberWindows(image);
-}
-
-void TargetEstimator::use(const ObservedImage& image) {
-  noticeTarget(image.window->target_id);
-  last_.pose = estimate(image);
-  last_.why_not = updateFilter(image);
-  if (last_.why_not.empty()) judgeOpenness(image);
-  checkClocks(image);
-}
-
-void TargetEstimator::rememberWindows(const ObservedImage& image) {
   const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
-  if (!T_odom_camera) return;
-  const bool is_used = image.window && last_.why_not.empty();
-  const auto filtered = is_used ? filter_.state(image.stamp_sec) : std::nullopt;
+  std::optional<FilteredWindow> used;
+  if (image.window) {
+    noticeTarget(image.window->target_id);
+    last_.pose =
+        estimator_.estimate(*image.window, image.camera, {gravity(image), filter_.sizeOf(*image.window)});
+    last_.why_not = updateFilter(image, T_odom_camera);
+    const auto window = filter_.state(image.stamp_sec);
+    if (last_.why_not.empty()) used = window;
+    if (used) judgeOpenness(image, *T_odom_camera, *used);
+    if (window && T_odom_camera) checkClocks(image, *T_odom_camera, *window);
+  }
+  if (T_odom_camera) rememberWindows(image, *T_odom_camera, used);
+}
+
+void TargetEstimator::rememberWindows(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                                      const std::optional<FilteredWindow>& used) {
+  std::optional<facade::TrackedWindow> tracked;
+  if (used)
+    tracked = facade::TrackedWindow{used->T_odom_window, used->covariance, used->size.size,
+                                    used->sign_trusted, used->updates};
   facade_.addView({image.stamp_sec,
-                   {image.camera, *T_odom_camera},
+                   {image.camera, T_odom_camera},
                    image.windows,
                    image.window ? image.window->target_id : 0},
-                  filtered, filtered ? filtered->size.size : lookedFor());
-  if (filtered) facade_.judge(openness());
+                  tracked, used ? used->size.size : lookedFor());
+  if (used) facade_.judge(openness());
 }
 
 geometry::OpeningSize TargetEstimator::lookedFor() const {
@@ -221,17 +206,17 @@ void TargetEstimator::addNavigatorState(std::uint32_t flown_at, const std::vecto
   if (next_one) startAnewIfNot(before);
 }
 
-std::string TargetEstimator::updateFilter(const ObservedImage& image) {
+std::string TargetEstimator::updateFilter(const ObservedImage& image,
+                                          const std::optional<Eigen::Isometry3d>& T_odom_camera) {
   const detection::WindowObservation& window = *image.window;
   const int sides = window.visibleSides();  // 0: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
-  const auto T_odom_camera = cameraAt(window.stamp_sec, image.T_base_camera);
   if (T_odom_camera)
     if (auto other = facade_.whyNotTarget(window, {image.camera, *T_odom_camera}, lookedFor());
         !other.empty())
       return other;
   // Keeps images without a pose, too, because a wrongly mounted camera may give none.
-  if (T_odom_camera && !checks_->mounting_is_sure) unverified_.push_back(image);
+  if (T_odom_camera && !mounting_is_sure_) unverified_.push_back(image);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
   if (!image.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";
@@ -243,30 +228,32 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
       height_m);
 }
 
-// Attitude of the IMU, unless there is none or it uses other axes.
-std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
-  const auto imu = attitude_.at(stamp_sec, kMaxPoseGapSec);
-  const auto odometry = odometry_.at(stamp_sec, kMaxPoseGapSec);
-  const bool agree = !imu || !odometry || checks_->frames.attitude.see(imu->linear(), odometry->linear());
-  if (imu && agree) return imu->linear();
-  if (odometry) return odometry->linear();
-  return std::nullopt;
-}
-
+// By the attitude of the IMU, unless there is none or it uses other axes.
 std::optional<GravityPrior> TargetEstimator::gravity(const ObservedImage& image) {
   if (!image.T_base_camera) return std::nullopt;
-  const auto R_odom_base = attitudeAt(image.stamp_sec);
-  if (!R_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = *R_odom_base * image.T_base_camera->linear();
+  const auto imu = attitude_.at(image.stamp_sec, kMaxPoseGapSec);
+  const auto odometry = odometry_.at(image.stamp_sec, kMaxPoseGapSec);
+  const bool agree = !imu || !odometry || checks_->attitude.see(imu->linear(), odometry->linear());
+  const auto& T_odom_base = imu && agree ? imu : odometry;
+  if (!T_odom_base) return std::nullopt;
+  const Eigen::Matrix3d R_odom_camera = T_odom_base->linear() * image.T_base_camera->linear();
   return GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), attitude_sigma_rad_};
 }
 
 std::optional<TargetEstimate> TargetEstimator::target(double now_sec) const {
-  const auto state = filter_.state(now_sec);
-  if (!state) return std::nullopt;
-  TargetEstimate target = targetFrom(*state);
-  target.fit = fit(*state).fit;
-  target.approach_forbidden = approachForbidden(*state);
+  const auto window = filter_.state(now_sec);
+  if (!window) return std::nullopt;
+  TargetEstimate target;
+  target.stamp_sec = window->stamp_sec;
+  target.T_odom_window = window->T_odom_window;
+  target.covariance = window->covariance;
+  target.sign_trusted = window->sign_trusted;
+  target.motion = window->motion;
+  target.pose_stamp_sec = window->stamp_sec + window->age_sec;
+  target.updates = window->updates;
+  target.opening = window->size.size;
+  target.fit = fit(*window).fit;
+  target.approach_forbidden = approachForbidden(*window);
   target.unverified = unverified();
   target.other_window = otherWindow();
   target.openness = openness();

@@ -1,21 +1,14 @@
 // Checks during flight: size, clocks, openness, and what forbids the approach.
 #include <cmath>
 
-#include "estimation/target_checks.hpp"
+#include "estimation/checks/flight_checks.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
-
-std::string otherWindowText(double factor) {
-  return formatted("another window: about %.1f times as large as the one looked for", factor);
-}
-
-std::string contradictedText(const Consistency& consistency) {
-  return formatted("%d of %d images contradict the estimated window: is the configured size wrong?",
-                   consistency.refused, consistency.refused + consistency.images);
-}
 
 std::string turnedText(const CameraTurn& camera) {
   constexpr double kCertainSigmas = 2.0;
@@ -34,31 +27,27 @@ void TargetEstimator::checkSize(const ObservedImage& image, const Eigen::Isometr
 }
 
 // Images that the filter refuses count, too, because wrong stamps may be the reason.
-void TargetEstimator::checkClocks(const ObservedImage& image) {
+void TargetEstimator::checkClocks(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                                  const FilteredWindow& window) {
   constexpr double kRateSec = 0.1;
-  const auto window = filter_.state(image.stamp_sec);
-  const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
   const auto before = cameraAt(image.stamp_sec - kRateSec, image.T_base_camera);
-  if (!window || !T_odom_camera || !before || !image.window->whole()) return;
-  if (!window->motion.model.stands()) return;
-  const Eigen::Matrix3d turned = T_odom_camera->linear() * before->linear().transpose();
+  if (!before || !image.window->whole() || !window.motion.model.stands()) return;
+  const Eigen::Matrix3d turned = T_odom_camera.linear() * before->linear().transpose();
   const Eigen::Vector3d sight =
-      T_odom_camera->linear() * image.camera.ray(geometry::centroid(image.window->corners));
-  clocks_.see({image.stamp_sec, T_odom_camera->translation().head<2>(), std::atan2(sight.y(), sight.x()),
-               std::atan2(turned(1, 0), turned(0, 0)) / kRateSec},
-              window->T_odom_window.translation().head<2>());
+      T_odom_camera.linear() * image.camera.ray(geometry::centroid(image.window->corners));
+  clocks_.see({image.stamp_sec, T_odom_camera.translation().head<2>(), std::atan2(sight.y(), sight.x()),
+               geometry::yawOf(turned) / kRateSec},
+              window.T_odom_window.translation().head<2>());
 }
 
-void TargetEstimator::judgeOpenness(const ObservedImage& image) {
-  const auto window = filter_.state(image.stamp_sec);
-  const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
-  if (!window || !T_odom_camera) return;
+void TargetEstimator::judgeOpenness(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                                    const FilteredWindow& window) {
   // What lies behind a moving window is assumed to move with it, so positions are relative to the window.
   const Eigen::Vector3d moved =
-      window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
+      window.motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window.T_odom_window.translation();
   const Eigen::Translation3d back(-moved);
   judge_.see(
-      {*image.window, image.camera, back * *T_odom_camera, back * window->T_odom_window, window->size.size});
+      {*image.window, image.camera, back * T_odom_camera, back * window.T_odom_window, window.size.size});
 }
 
 // Waits for odometry from after the image, because the check needs the vehicle's motion at the image.
@@ -71,26 +60,26 @@ void TargetEstimator::verifyMounting(double odometry_sec) {
     const auto before = odometry_.at(image.stamp_sec - kAroundSec, kMaxPoseGapSec);
     const auto after = odometry_.at(image.stamp_sec + kAroundSec, kMaxPoseGapSec);
     if (!T_odom_base) continue;
-    checks_->frames.mounting.assumeDrift(checks_->frames.twist.driftMPerSqrtSec());
+    checks_->mounting.assumeDrift(checks_->twist.driftMPerSqrtSec());
     CameraMotion motion;
     if (before && after) {
       motion.velocity_mps = (after->translation() - before->translation()) / (2.0 * kAroundSec);
       const Eigen::AngleAxisd turn(after->linear() * before->linear().transpose());
       motion.turn_radps = turn.angle() * turn.axis() / (2.0 * kAroundSec);
     }
-    checks_->frames.mounting.see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
+    checks_->mounting.see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
   }
 }
 
 std::string TargetEstimator::unverified() const {
-  const FramesVerdict mounting = checks_->frames.mounting.verdict();
-  return checks_->mounting_is_sure || mounting.state == FramesVerdict::kGood ? "" : mounting.what;
+  const FramesVerdict mounting = checks_->mounting.verdict();
+  return mounting_is_sure_ || mounting.state == FramesVerdict::kGood ? "" : mounting.what;
 }
 
-FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
+FramesVerdict TargetEstimator::frames() const { return checks_->frames(); }
 
 const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
-  return checks_->frames.mounting.measuredSize();
+  return checks_->mounting.measuredSize();
 }
 
 // An extreme factor indicates wrong frames, not another window.
@@ -102,11 +91,14 @@ std::optional<double> TargetEstimator::otherWindow() const {
 }
 
 std::string TargetEstimator::approachForbidden(const FilteredWindow& window) const {
-  const FramesVerdict frames = checks_->frames.verdict();
+  const FramesVerdict frames = checks_->frames();
   if (frames.state == FramesVerdict::kWrong) return frames.what;
-  if (const auto factor = otherWindow()) return otherWindowText(*factor);
+  if (const auto factor = otherWindow())
+    return formatted("another window: about %.1f times as large as the one looked for", *factor);
   if (auto turned = turnedText(window.camera_turn); !turned.empty()) return turned;
-  if (window.consistency.contradicted) return contradictedText(window.consistency);
+  if (const Consistency& consistency = window.consistency; consistency.contradicted)
+    return formatted("%d of %d images contradict the estimated window: is the configured size wrong?",
+                     consistency.refused, consistency.refused + consistency.images);
   const FitVerdict verdict = fit(window);
   if (verdict.fit == Fit::kGo) return "";
   return std::string("fit ") + toString(verdict.fit) + ": " + verdict.reason;

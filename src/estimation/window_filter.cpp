@@ -4,9 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "estimation/checks/odometry_smoother.hpp"
-#include "estimation/filter/filtered_window.hpp"
 #include "estimation/filter/mirror_hypotheses.hpp"
+#include "estimation/filter/odometry_smoother.hpp"
 #include "estimation/filter/viewpoints.hpp"
 #include "estimation/planar/observation_check.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -224,14 +223,6 @@ struct WindowFilter::Impl {
     accept(stamp, view);
     return true;
   }
-
-  FilteredWindow stateAt(double age_sec) const {
-    FilteredWindow out = filteredWindow(beliefs, params, camera_position, unlearned_yaw_rad, age_sec);
-    out.stamp_sec = stamp_sec;
-    out.updates = updates;
-    out.consistency = consistency.consistency();
-    return out;
-  }
 };
 
 WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeEstimate>& size) {
@@ -259,7 +250,11 @@ std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
   if (self.beliefs.empty() || !std::isfinite(now_sec)) return std::nullopt;
   const double age_sec = now_sec - self.stamp_sec;
   if (age_sec > self.params.max_age_sec || age_sec < -kTimeJumpSec) return std::nullopt;
-  return self.stateAt(age_sec);
+  FilteredWindow out = self.beliefs.windowAt(age_sec, self.camera_position, self.unlearned_yaw_rad);
+  out.stamp_sec = self.stamp_sec;
+  out.updates = self.updates;
+  out.consistency = self.consistency.consistency();
+  return out;
 }
 
 void WindowFilter::reset() { impl_->reset(); }

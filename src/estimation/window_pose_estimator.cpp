@@ -1,6 +1,5 @@
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +8,6 @@
 #include "estimation/planar/planar_solutions.hpp"
 #include "estimation/planar/refinement.hpp"
 #include "estimation/planar/relative_yaw.hpp"
-#include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
@@ -20,14 +18,10 @@ namespace {
 constexpr double kCertain = 1e9;
 constexpr double kTrustedYawSigmas = 3.0, kTrustedLogLikelihoodRatio = 6.2;  // the latter: one wrong in 500
 
-Eigen::Vector3d rayOf(const geometry::PinholeCamera& camera, const Eigen::Vector2d& ideal_px) {
-  return {(ideal_px.x() - camera.cx) / camera.fx, (ideal_px.y() - camera.cy) / camera.fy, 1.0};
-}
-
 // Length that, seen head-on at `range_m`, subtends the angle between two points of the image.
 double apparentLength(const geometry::PinholeCamera& camera, double range_m, const Eigen::Vector2d& a_px,
                       const Eigen::Vector2d& b_px) {
-  const Eigen::Vector3d a = rayOf(camera, a_px), b = rayOf(camera, b_px);
+  const Eigen::Vector3d a = camera.normalised(a_px).homogeneous(), b = camera.normalised(b_px).homogeneous();
   return 2.0 * range_m * std::tan(0.5 * std::atan2(a.cross(b).norm(), a.dot(b)));
 }
 

@@ -13,12 +13,10 @@ constexpr double kSameSpot = 0.4;  // of the smaller width: two windows cannot b
 constexpr double kMaxSquares = 3.5 * 3.5;  // squared Mahalanobis distance of a place from its window
 constexpr double kForgetSec = 2.0;         // without a sight, for a window without a number
 constexpr double kForgetGuessSec = 3.0;    // without a sight, for a window of guessed distance
-constexpr double kMinSize =
-    0.5;  // of the expected size; smaller ones are paving stones, panes, strips of a frame
+constexpr double kMinSize = 0.5;           // of the expected size; smaller: stones, panes, strips of a frame
 constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights, over the filter's parameter
 constexpr double kSizeRatio = 1.35;        // above which two loops are different windows
-constexpr double kOnWallRatio =
-    1.5;  // of sizes measured on the wall: one may be cut off, the other a frame's
+constexpr double kOnWallRatio = 1.5;       // of sizes measured on the wall: one may be cut off, or a frame's
 
 bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b, double ratio) {
   const double wider = a.width_m / b.width_m, higher = a.height_m / b.height_m;
@@ -172,7 +170,7 @@ void FacadeMap::prune(const FacadeView& view, bool knows_wall, std::uint32_t kep
                                         [](const detection::SeenWindow& seen) { return !seen.is_target; });
   const auto is_stale = [&](const KnownWindow& window) {
     const double unseen_sec = view.stamp_sec - window.last_seen_sec;
-    if (!isConfirmed(window)) return unseen_sec > kForgetSec;
+    if (!window.isConfirmed()) return unseen_sec > kForgetSec;
     return knows_wall && !window.place.on_wall && window.id != kept && was_searched &&
            unseen_sec > kForgetGuessSec && inView(window.place, view.from);
   };
@@ -207,10 +205,6 @@ void FacadeMap::addView(const FacadeView& view, const std::optional<Wall>& wall,
   forgetNeighbours();
 }
 
-void FacadeMap::correct(std::uint32_t id, const WindowPlace& place) {
-  if (KnownWindow* window = find(id)) window->place = place;
-}
-
 const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) const {
   const KnownWindow* nearest = nullptr;
   double least = kMaxSquares;
@@ -229,10 +223,9 @@ KnownWindow* FacadeMap::find(std::uint32_t id) {
   return id == 0 ? nullptr : withNumber(windows_, &KnownWindow::id, id);
 }
 
-std::optional<std::uint32_t> FacadeMap::followed() const {
-  for (const KnownWindow& window : windows_)
-    if (window.key == followed_key_ && isConfirmed(window)) return window.id;
-  return std::nullopt;
+KnownWindow* FacadeMap::followed() {
+  KnownWindow* window = withNumber(windows_, &KnownWindow::key, followed_key_);
+  return window != nullptr && window->isConfirmed() ? window : nullptr;
 }
 
 }  // namespace window_ingress::facade

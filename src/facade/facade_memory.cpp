@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -11,29 +12,29 @@ namespace window_ingress::facade {
 namespace {
 
 constexpr double kLongestGapSec = 0.5;   // between images; longer gaps do not count
-constexpr int kSettledUpdates = 15;      // of the filter, after which the tracked window becomes the target
+constexpr int kSettledUpdates = 15;      // of the estimate, after which the tracked window becomes the target
 constexpr double kNextReleaseSec = 1.5;  // as `release_sec`, for a target that was the next best
 constexpr double kMaxClickM = 1.0;       // of a click from a window
 constexpr double kNearestSigmaM = 0.03;  // least standard deviation of a place in odom
 
-WindowPlace placeFrom(const estimation::FilteredWindow& filtered) {
+WindowPlace placeFrom(const TrackedWindow& tracked) {
   WindowPlace place;
-  place.position_m = filtered.T_odom_window.translation();
-  place.covariance = filtered.covariance.topLeftCorner<3, 3>() +
+  place.position_m = tracked.T_odom_window.translation();
+  place.covariance = tracked.covariance.topLeftCorner<3, 3>() +
                      kNearestSigmaM * kNearestSigmaM * Eigen::Matrix3d::Identity();
-  place.heading_rad = geometry::yawOf(filtered.T_odom_window.linear());
-  place.size = filtered.size.size;
+  place.heading_rad = geometry::yawOf(tracked.T_odom_window.linear());
+  place.size = tracked.size;
   place.on_wall = true;
   return place;
 }
 
-Wall wallFrom(const estimation::FilteredWindow& filtered) {
-  const Eigen::Vector3d through = filtered.T_odom_window.linear().col(0);
+Wall wallFrom(const TrackedWindow& tracked) {
+  const Eigen::Vector3d through = tracked.T_odom_window.linear().col(0);
   Wall wall;
-  wall.position_m = filtered.T_odom_window.translation();
-  wall.heading_rad = geometry::yawOf(filtered.T_odom_window.linear());
-  wall.sigma_m = std::sqrt(through.dot(filtered.covariance.topLeftCorner<3, 3>() * through));
-  wall.heading_sigma_rad = std::sqrt(filtered.covariance(5, 5));
+  wall.position_m = tracked.T_odom_window.translation();
+  wall.heading_rad = geometry::yawOf(tracked.T_odom_window.linear());
+  wall.sigma_m = std::sqrt(through.dot(tracked.covariance.topLeftCorner<3, 3>() * through));
+  wall.heading_sigma_rad = std::sqrt(tracked.covariance(5, 5));
   return wall;
 }
 
@@ -49,13 +50,11 @@ FacadeMemory::FacadeMemory(const FacadeParams& params)
 void FacadeMemory::reset() { *this = FacadeMemory(params_); }
 
 void FacadeMemory::forgetPlaces() {
-  const bool lost = target() == nullptr ? choice_is_lost_ : is_chosen_;
-  const std::uint32_t track_id = target_track_id_;
-  const bool given_up = choice_is_given_up_;
-  reset();
-  choice_is_lost_ = lost;
-  choice_is_given_up_ = given_up;
-  target_track_id_ = track_id;
+  FacadeMemory empty(params_);
+  empty.choice_is_lost_ = target() == nullptr ? choice_is_lost_ : is_chosen_;
+  empty.choice_is_given_up_ = choice_is_given_up_;
+  empty.target_track_id_ = target_track_id_;
+  *this = std::move(empty);
 }
 
 void FacadeMemory::setTarget(std::uint32_t id, bool is_chosen) {
@@ -71,27 +70,27 @@ void FacadeMemory::setNextBest() {
   is_next_ = next != nullptr;
 }
 
-void FacadeMemory::addView(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
+void FacadeMemory::addView(const FacadeView& view, const std::optional<TrackedWindow>& tracked,
                            const geometry::OpeningSize& looked_for) {
   if (!params_.enabled) return;
   looked_for_ = looked_for;
-  if (filtered && filtered->sign_trusted) wall_ = wallFrom(*filtered);
+  if (tracked && tracked->sign_trusted) wall_ = wallFrom(*tracked);
   map_.addView(view, wall_, looked_for, target_id_);
   if (target() == nullptr) target_id_ = 0;
-  if (filtered) adopt(*filtered, view.track_id);
+  if (tracked) adopt(*tracked, view.track_id);
   yieldToBetterLook();
   releaseIfGone(view);
 }
 
-void FacadeMemory::adopt(const estimation::FilteredWindow& filtered, std::uint32_t track_id) {
-  const auto followed = map_.followed();
-  if (!followed) return;
-  if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(*followed, true);
-  if (filtered.sign_trusted) map_.correct(*followed, placeFrom(filtered));
-  const bool has_settled = filtered.updates >= kSettledUpdates;
+void FacadeMemory::adopt(const TrackedWindow& tracked, std::uint32_t track_id) {
+  KnownWindow* followed = map_.followed();
+  if (followed == nullptr) return;
+  if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(followed->id, true);
+  if (tracked.sign_trusted) followed->place = placeFrom(tracked);
+  const bool has_settled = tracked.updates >= kSettledUpdates;
   const bool is_free = target_id_ == 0 && !choice_is_lost_ && !choice_is_given_up_;
-  if (is_free && has_settled && map_.find(*followed)->failures == 0) setTarget(*followed, false);
-  if (*followed == target_id_) target_track_id_ = track_id;
+  if (is_free && has_settled && followed->failures == 0) setTarget(followed->id, false);
+  if (followed->id == target_id_) target_track_id_ = track_id;
 }
 
 // The reference decides: a window that matches it clearly better is the target, not a neighbour.
@@ -100,7 +99,7 @@ void FacadeMemory::yieldToBetterLook() {
   if (now == nullptr || is_chosen_ || !now->bhattacharyya) return;
   const double needed = *now->bhattacharyya - params_.distance_margin;
   const auto is_better = [&](const KnownWindow& other) {
-    return other.may_be_target && other.failures == 0 && map_.isConfirmed(other) &&
+    return other.may_be_target && other.failures == 0 && other.isConfirmed() &&
            other.bhattacharyya.value_or(1.0) < needed;
   };
   if (std::any_of(windows().begin(), windows().end(), is_better)) setTarget(0, false);
@@ -139,7 +138,7 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
   const KnownWindow* seen = map_.at(*place, window.stamp_sec);
   if (seen != nullptr && seen->id == target->id) return "";
   const double apart_m = (place->position_m - target->place.position_m).norm();
-  const bool is_listed = seen != nullptr && map_.isConfirmed(*seen);
+  const bool is_listed = seen != nullptr && seen->isConfirmed();
   return formatted("%s, %.1f m from window %u, which is the target",
                    is_listed ? name(seen->id).c_str() : "another window", apart_m, target->id);
 }
@@ -156,7 +155,7 @@ Reply FacadeMemory::select(std::uint32_t id) {
     return {true, "no window is chosen: the tracked window becomes the target"};
   }
   const KnownWindow* window = map_.find(id);
-  if (window == nullptr || !map_.isConfirmed(*window)) return {false, "no " + name(id) + " is known"};
+  if (window == nullptr || !window->isConfirmed()) return {false, "no " + name(id) + " is known"};
   if (isClosed(*window)) return {false, name(id) + " was seen to be closed: " + window->openness.reason};
   setTarget(id, true);
   map_.find(id)->failures = 0;
@@ -172,7 +171,7 @@ Reply FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
   };
   const KnownWindow* nearest = nullptr;
   for (const KnownWindow& window : windows()) {
-    if (!map_.isConfirmed(window) || std::get<0>(rank(window)) > kMaxClickM) continue;
+    if (!window.isConfirmed() || std::get<0>(rank(window)) > kMaxClickM) continue;
     if (nearest == nullptr || rank(window) < rank(*nearest)) nearest = &window;
   }
   if (nearest != nullptr) return select(nearest->id);
@@ -197,7 +196,7 @@ const KnownWindow* FacadeMemory::nextBest() const {
                            -window.bhattacharyya.value_or(1.0), window.score);
   };
   for (const KnownWindow& window : windows()) {
-    const bool may_be = map_.isConfirmed(window) && window.may_be_target && window.failures == 0 &&
+    const bool may_be = window.isConfirmed() && window.may_be_target && window.failures == 0 &&
                         !isClosed(window) && FacadeMap::isOfSize(window, looked_for_);
     if (!may_be) continue;
     if (best == nullptr || rank(window) > rank(*best)) best = &window;

@@ -57,8 +57,7 @@ std::optional<WindowPlace> onWall(const geometry::Quadrilateral& corners, const 
 
 std::optional<WindowPlace> bySize(const geometry::Quadrilateral& corners, const Viewpoint& view,
                                   const geometry::OpeningSize& looked_for) {
-  geometry::Quadrilateral ideal;
-  for (int i = 0; i < 4; ++i) ideal[i] = view.camera.undistort(corners[i]);
+  const geometry::Quadrilateral ideal = geometry::undistorted(corners, &view.camera);
   const double height_px = 0.5 * ((ideal[3] - ideal[0]).norm() + (ideal[2] - ideal[1]).norm());
   if (!(height_px > 1.0)) return std::nullopt;
   const double range_m = view.camera.fy * looked_for.height_m / height_px;
@@ -83,8 +82,7 @@ std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const
 }
 
 Eigen::Isometry3d poseOf(const WindowPlace& place) {
-  return geometry::makePose(Eigen::AngleAxisd(place.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-                            place.position_m);
+  return geometry::makePose(geometry::yawRotation(place.heading_rad), place.position_m);
 }
 
 std::optional<geometry::Quadrilateral> inView(const WindowPlace& place, const Viewpoint& view) {

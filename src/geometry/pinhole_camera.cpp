@@ -77,6 +77,11 @@ Eigen::Vector2d undistortEquidistant(const std::array<double, 5>& d, const Eigen
   return radius > 1e-12 ? Eigen::Vector2d(p * (std::tan(straightened(d, radius)) / radius)) : p;
 }
 
+template <typename Iterator>
+bool areZero(Iterator begin, Iterator end) {
+  return std::all_of(begin, end, [](double number) { return number == 0.0; });
+}
+
 }  // namespace
 
 PinholeCamera PinholeCamera::fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad) {
@@ -111,8 +116,7 @@ std::vector<std::string> PinholeCamera::validate() const {
 }
 
 bool PinholeCamera::hasDistortion() const {
-  if (model == LensModel::kEquidistant) return true;  // for any coefficients
-  return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
+  return model == LensModel::kEquidistant || !areZero(distortion.begin(), distortion.end());
 }
 
 PinholeCamera PinholeCamera::withoutDistortion() const {
@@ -135,10 +139,9 @@ std::optional<Eigen::Vector2d> PinholeCamera::project(const Eigen::Vector3d& p_c
 
 Eigen::Vector2d PinholeCamera::distort(const Eigen::Vector2d& ideal_px) const {
   if (!hasDistortion()) return ideal_px;
-  const Eigen::Vector2d normalised((ideal_px.x() - cx) / fx, (ideal_px.y() - cy) / fy);
-  const Eigen::Vector2d p = model == LensModel::kEquidistant
-                                ? distortEquidistant(distortion, normalised)
-                                : distortNormalised(distortion, normalised).point;
+  const Eigen::Vector2d ideal = normalised(ideal_px);
+  const Eigen::Vector2d p = model == LensModel::kEquidistant ? distortEquidistant(distortion, ideal)
+                                                             : distortNormalised(distortion, ideal).point;
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
@@ -160,19 +163,42 @@ double PinholeCamera::pixelAcross(const Eigen::Vector2d& ideal_px, const Eigen::
 
 Eigen::Vector2d PinholeCamera::undistort(const Eigen::Vector2d& distorted_px) const {
   if (!hasDistortion()) return distorted_px;
-  const Eigen::Vector2d seen((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);
+  const Eigen::Vector2d seen = normalised(distorted_px);
   const Eigen::Vector2d p = model == LensModel::kEquidistant ? undistortEquidistant(distortion, seen)
                                                              : undistortNormalised(distortion, seen);
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
 Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& distorted_px) const {
-  const Eigen::Vector2d ideal = undistort(distorted_px);
-  return Eigen::Vector3d((ideal.x() - cx) / fx, (ideal.y() - cy) / fy, 1.0).stableNormalized();
+  const Eigen::Vector3d ray = normalised(undistort(distorted_px)).homogeneous();
+  return ray.stableNormalized();
 }
 
 bool PinholeCamera::contains(const Eigen::Vector2d& pixel, double margin_px) const {
   return isInside(pixel, width, height, margin_px);
+}
+
+std::string setLens(const std::string& model, const std::vector<double>& coefficients,
+                    PinholeCamera& camera) {
+  const bool is_fisheye = model == "equidistant" || model == "fisheye";
+  const bool is_plumb_bob = model == "plumb_bob", is_rational = model == "rational_polynomial";
+  const std::size_t count = coefficients.size();
+  const bool is_straight = areZero(coefficients.begin(), coefficients.end());
+  if (model.empty() && is_straight) return "";
+  if (!is_fisheye && !is_plumb_bob && !is_rational)
+    return "distortion model '" + model.substr(0, 40) +
+           "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
+           "use rectified images (image_proc) and set vehicle/image_is_rectified";
+  if (!is_fisheye && is_straight) return "";
+  const std::size_t wanted = is_plumb_bob ? 5 : is_rational ? 8 : 4;
+  if (count != wanted && !(is_plumb_bob && count == 4))
+    return "D holds " + std::to_string(count) + " numbers, " + model + " has " + std::to_string(wanted);
+  if (is_rational && !areZero(coefficients.begin() + 5, coefficients.end()))
+    return "distortion model rational_polynomial is supported with k4 = k5 = k6 = 0 only; calibrate with "
+           "plumb_bob";
+  if (is_fisheye) camera.model = LensModel::kEquidistant;
+  std::copy_n(coefficients.begin(), std::min(count, camera.distortion.size()), camera.distortion.begin());
+  return "";
 }
 
 const PinholeCamera* lensOf(const PinholeCamera* camera) {

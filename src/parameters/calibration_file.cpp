@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "parameters/yaml_nodes.hpp"
-#include "window_ingress/geometry/lens_model.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::parameters {
 namespace {

@@ -5,8 +5,7 @@
 #include <random>
 
 #include "window_ingress/detection/seen_windows.hpp"
-#include "window_ingress/estimation/window_filter.hpp"
-#include "window_ingress/facade/facade_map.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::test {
@@ -61,15 +60,9 @@ struct WindowRow {
   }
 
   /// Estimate of a window by a filter that has converged.
-  estimation::FilteredWindow filtered(int i, double stamp_sec) const {
-    estimation::FilteredWindow window;
-    window.stamp_sec = stamp_sec;
-    window.T_odom_window = geometry::makePose(Eigen::Matrix3d::Identity(), centre(i));
-    window.covariance = 1e-4 * estimation::Matrix6d::Identity();
-    window.sign_trusted = true;
-    window.updates = 100;
-    window.size.size = size;
-    return window;
+  facade::TrackedWindow tracked(int i) const {
+    return {geometry::makePose(Eigen::Matrix3d::Identity(), centre(i)),
+            1e-4 * Eigen::Matrix<double, 6, 6>::Identity(), size, true, 100};
   }
 
   detection::WindowObservation observation(int i, double stamp_sec, const facade::Viewpoint& view,

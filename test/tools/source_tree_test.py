@@ -53,6 +53,20 @@ def test_the_interface_is_used_elsewhere():
         assert any(folder_of(user) != folder_of(header) or PUBLIC in user.parents for user in users[name]), name
 
 
+def test_folders_are_compiled_in_one_direction():
+    """No folder includes one that includes it, directly or through others."""
+    below = {folder_of(file): set() for file in sources("include", "src")}
+    for file in sources("include", "src"):
+        for name in included_by(file):
+            below[folder_of(file)].add(name.replace("window_ingress/", "").split("/")[0])
+    left = {folder: names.intersection(below) - {folder} for folder, names in below.items()}
+    assert len(left) > 10
+    while left:
+        lowest = {folder for folder, names in left.items() if not names.intersection(left)}
+        assert lowest, f"these include each other: {sorted(left)}"
+        left = {folder: names for folder, names in left.items() if folder not in lowest}
+
+
 @pytest.mark.parametrize("test", sorted((ROOT / "test/unit").rglob("*_test.cpp")), ids=lambda test: test.stem)
 def test_a_test_stands_where_its_subject_does(test):
     folder = test.parent.relative_to(ROOT / "test/unit")

@@ -28,10 +28,9 @@ class ConsistencyMonitor {
  public:
   static constexpr int kImages = 50;          ///< length of the window
   static constexpr double kMaxMeanNis = 3.3;  ///< per degree of freedom
-  explicit ConsistencyMonitor(int images = kImages) : images_(static_cast<std::size_t>(images)) {}
 
   void add(double squares, int degrees_of_freedom);
-  void refuse();  ///< an image that the filter did not use
+  void refuse() { note({0.0, 0}); }  ///< an image that the filter did not use
   void clear() { samples_.clear(); }
   Consistency consistency() const;
 
@@ -41,7 +40,6 @@ class ConsistencyMonitor {
     int degrees_of_freedom;  ///< 0: refused
   };
   void note(const Sample& sample);
-  std::size_t images_;
   std::deque<Sample> samples_;
 };
 

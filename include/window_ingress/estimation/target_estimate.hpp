@@ -39,4 +39,17 @@ struct TargetEstimate {
   std::uint32_t window_id = 0;  ///< number in the memory of all windows; 0: not yet known as the target
 };
 
+/// What the first metres of flight have shown about the frames.
+struct FramesVerdict {
+  enum State {
+    kUndecided,  ///< not enough seen
+    kGood,
+    kWrong
+  };
+  State state = kUndecided;
+  std::string what;  ///< names the mismatch, or what is still to be seen
+
+  bool operator==(const FramesVerdict& other) const { return state == other.state && what == other.what; }
+};
+
 }  // namespace window_ingress::estimation

@@ -9,7 +9,6 @@
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
-#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/target_estimate.hpp"
@@ -20,6 +19,8 @@
 #include "window_ingress/openness/openness_judge.hpp"
 
 namespace window_ingress::estimation {
+
+struct FlightChecks;
 
 struct TargetEstimatorParams {
   openness::OpennessParams openness;
@@ -115,34 +116,35 @@ class TargetEstimator {
 
  private:
   void process(const ObservedImage& image);
-  void use(const ObservedImage& image);
   geometry::OpeningSize lookedFor() const;
   std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
-  void rememberWindows(const ObservedImage& image);
+  void rememberWindows(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                       const std::optional<FilteredWindow>& used);
   void startAnewIfNot(std::uint32_t target_before);
   void verifyMounting(double odometry_sec);
-  std::string updateFilter(const ObservedImage& image);  // empty, or why it was not used
+  /// \return empty, or why the image was not used
+  std::string updateFilter(const ObservedImage& image, const std::optional<Eigen::Isometry3d>& T_odom_camera);
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
   void checkSize(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera);
-  void checkClocks(const ObservedImage& image);
+  void checkClocks(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                   const FilteredWindow& window);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
-  std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
   std::optional<GravityPrior> gravity(const ObservedImage& image);
-  PoseResult estimate(const ObservedImage& image);
-  void judgeOpenness(const ObservedImage& image);
+  void judgeOpenness(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
+                     const FilteredWindow& window);
 
   TargetEstimatorParams params_;
   WindowPoseEstimator estimator_;
   WindowFilter filter_;
-  struct Checks;
-  std::unique_ptr<Checks> checks_;  ///< of the configured frames, mounting and size
+  std::unique_ptr<FlightChecks> checks_;  ///< of the configured frames, mounting and size
   ClockCheck clocks_;
   openness::OpennessJudge judge_;
   facade::FacadeMemory facade_;
   std::size_t handled_given_up_ = 0;  ///< number of abandoned windows already processed
   bool size_is_known_;
+  bool mounting_is_sure_;  ///< stated as sure, so it is not verified
   double attitude_sigma_rad_;
   std::uint32_t target_id_ = 0;
   PoseBuffer odometry_, attitude_;

@@ -29,4 +29,10 @@ struct TargetMotion {
   double velocity_sigma_mps = 0.0;  ///< in its least known direction
 };
 
+/// Motion of a camera in odom axes; a wrong stamp displaces the camera along it.
+struct CameraMotion {
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_radps = Eigen::Vector3d::Zero();
+};
+
 }  // namespace window_ingress::estimation

@@ -4,12 +4,11 @@
 #include <optional>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/estimation/camera_motion.hpp"
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/target_motion.hpp"
-#include "window_ingress/estimation/window_pose_estimate.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {

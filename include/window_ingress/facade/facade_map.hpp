@@ -7,11 +7,27 @@
 #include <vector>
 
 #include "window_ingress/detection/seen_windows.hpp"
-#include "window_ingress/facade/facade_params.hpp"
 #include "window_ingress/facade/window_place.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 
 namespace window_ingress::facade {
+
+/// Choice of the target among the windows of the facade.
+struct FacadeParams {
+  bool enabled = true;  ///< remember the windows of the facade and distinguish the target from its neighbours
+  double release_sec = 8.0;      ///< a target not chosen by the operator is given up if its place was in view
+                                 ///< this long without it [s]
+  double distance_margin = 0.2;  ///< a window replaces the target if its Bhattacharyya distance to the
+                                 ///< reference is smaller by this
+  double odom_drift_m_per_sqrt_sec = 0.01;  // not in `visit`: config/vehicle.yaml says it
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("enabled", self.enabled);
+    field("release_sec", self.release_sec, 0.1, 600.0);
+    field("distance_margin", self.distance_margin, 0.01, 1.0);
+  }
+};
 
 /// A window that was seen, with all that is known of it.
 struct KnownWindow {
@@ -27,6 +43,8 @@ struct KnownWindow {
   openness::OpennessVerdict openness;
   int visits = 0;    ///< number of approaches
   int failures = 0;  ///< number of times it was given up: closed, or all attempts failed
+
+  bool isConfirmed() const { return id != 0; }
 };
 
 /// One image and its viewpoint.
@@ -55,16 +73,12 @@ class FacadeMap {
   /// \param kept number of a window that is not forgotten, and that keeps this number in a merge
   void addView(const FacadeView& view, const std::optional<Wall>& wall,
                const geometry::OpeningSize& looked_for, std::uint32_t kept = 0);
-  /// Corrects a place by one that is better known than from a single sight.
-  void correct(std::uint32_t id, const WindowPlace& place);
-
   /// The known window at this place; null if there is none.
   const KnownWindow* at(const WindowPlace& place, double stamp_sec) const;
-  /// Number of the target in the last image, once it has one.
-  std::optional<std::uint32_t> followed() const;
+  /// The target in the last image, once it has a number; else null.
+  KnownWindow* followed();
   KnownWindow* find(std::uint32_t id);
   const KnownWindow* find(std::uint32_t id) const;
-  bool isConfirmed(const KnownWindow& window) const { return window.id != 0; }
   const std::vector<KnownWindow>& windows() const { return windows_; }  ///< the oldest first
 
  private:
@@ -86,8 +100,8 @@ class FacadeMap {
 
   FacadeParams params_;
   std::vector<KnownWindow> windows_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>>
-      apart_;                       // keys of windows seen side by side, the lower first
+  /// Keys of windows seen side by side, the lower first.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> apart_;
   std::uint32_t followed_key_ = 0;  // 0: none
   std::uint32_t last_id_ = 0, last_key_ = 0;
 };

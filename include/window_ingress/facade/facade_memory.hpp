@@ -1,20 +1,28 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/facade/facade_map.hpp"
 #include "window_ingress/text/reply.hpp"
 
 namespace window_ingress::facade {
 
+/// What is known of the tracked window after an image that was used.
+struct TrackedWindow {
+  Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();               ///< upright
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< odom axes; m, rad
+  geometry::OpeningSize size;
+  bool sign_trusted = false;  ///< the window's normal is unambiguous
+  int updates = 0;            ///< images that contributed since the window was last acquired
+};
+
 /// All windows seen (`FacadeMap`) and the choice of the target among them.
 ///
-/// The target is the operator's choice, or else the first window tracked until the filter has settled. It
+/// The target is the operator's choice, or else the first window tracked until its estimate has settled. It
 /// stays the target until it is given up, until another window is clearly more like the reference, or until
 /// its place was in view without it for a total of `FacadeParams::release_sec`. A target chosen by the
 /// operator changes only if it is given up. While there is a target, no other window is accepted.
@@ -27,9 +35,9 @@ class FacadeMemory {
   /// The odometry frame changed: places are void. A chosen window stays chosen if it is still tracked;
   /// otherwise there is no target until the operator chooses again.
   void forgetPlaces();
-  /// \param filtered the filter's state of this image's target, if the image was used
+  /// \param tracked this image's target, if the image was used
   /// \param looked_for size of the target, known or believed
-  void addView(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
+  void addView(const FacadeView& view, const std::optional<TrackedWindow>& tracked,
                const geometry::OpeningSize& looked_for);
 
   /// Why a window seen is not the target; empty if it may be. Partial windows are not judged.
@@ -54,11 +62,10 @@ class FacadeMemory {
   std::uint32_t targetId() const { return target() == nullptr ? 0 : target_id_; }  ///< 0: none
   /// True if the target was chosen by the operator or as the next best, not only tracked first.
   bool isChosen() const { return is_chosen_; }
-  bool isShown(const KnownWindow& window) const { return map_.isConfirmed(window); }
   const std::vector<KnownWindow>& windows() const { return map_.windows(); }
 
  private:
-  void adopt(const estimation::FilteredWindow& filtered, std::uint32_t track_id);
+  void adopt(const TrackedWindow& tracked, std::uint32_t track_id);
   void yieldToBetterLook();
   void releaseIfGone(const FacadeView& view);
   void setTarget(std::uint32_t id, bool is_chosen);

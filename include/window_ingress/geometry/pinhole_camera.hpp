@@ -41,6 +41,11 @@ struct PinholeCamera {
   /// Pixel of a point in the optical frame [m]; nothing for points not in front of the camera.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_camera) const;
 
+  /// Point of the image plane at distance 1 under an ideal (undistorted) pixel.
+  Eigen::Vector2d normalised(const Eigen::Vector2d& ideal_px) const {
+    return {(ideal_px.x() - cx) / fx, (ideal_px.y() - cy) / fy};
+  }
+
   /// Distorted pixel of an ideal (undistorted) pixel of the same K.
   Eigen::Vector2d distort(const Eigen::Vector2d& ideal_px) const;
 
@@ -62,6 +67,12 @@ struct PinholeCamera {
   /// True if the pixel lies in the image, at least `margin_px` inside its border.
   bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const;
 };
+
+/// Sets a camera's lens from a model's name and coefficients, as calibration files and sensor_msgs/CameraInfo
+/// give them: plumb_bob with 4 or 5 numbers, equidistant (or fisheye) with 4, rational_polynomial with 8 of
+/// which the last three are 0. Without numbers, or with zeros alone, plumb_bob, rational_polynomial and a
+/// model without a name are a lens without distortion. \return why the lens cannot be used, empty if it can
+std::string setLens(const std::string& model, const std::vector<double>& coefficients, PinholeCamera& camera);
 
 /// The camera if its lens distorts the image, else null.
 const PinholeCamera* lensOf(const PinholeCamera* camera);

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "window_ingress/geometry/lens_model.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

@@ -95,7 +95,7 @@ std::optional<geometry::Quadrilateral> expectedFrom(const window_ingress::Rememb
 window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec) {
   window_ingress::Facade message;
   for (const facade::KnownWindow& window : memory.windows())
-    if (memory.isShown(window)) message.windows.push_back(toMsg(window, now_sec));
+    if (window.isConfirmed()) message.windows.push_back(toMsg(window, now_sec));
   message.target_id = memory.targetId();
   message.target_chosen = memory.isChosen();
   return message;

@@ -10,8 +10,8 @@
 #include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
-#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/estimation/target_estimate.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 

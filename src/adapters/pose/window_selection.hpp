@@ -101,8 +101,7 @@ class WindowSelection {
 
   Health health() const {
     std::size_t shown = 0;
-    for (const auto& window : estimator_.facade().windows())
-      shown += estimator_.facade().isShown(window) ? 1 : 0;
+    for (const auto& window : estimator_.facade().windows()) shown += window.isConfirmed() ? 1 : 0;
     const std::uint32_t target = estimator_.facade().targetId();
     std::string text = std::to_string(shown) +
                        " known, target: " + (target == 0 ? "none yet" : "window " + std::to_string(target));

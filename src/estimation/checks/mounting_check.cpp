@@ -11,7 +11,6 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr char kNothingYet[] = "camera mounting: not flown far enough yet";
 constexpr double kLastingSec = 10000.0;                    // a mounting does not change
 constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
@@ -67,31 +66,6 @@ std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
   return "camera mounting turned by about " + text;
 }
 
-std::string turnWithHeadingText(const CameraTurn& camera) {
-  return formatted("camera mounting or odometry's heading turned by about %.0f deg in yaw",
-                   -geometry::kDegreesPerRad * camera.with_heading_rad);
-}
-
-std::string undecidedText(const BodyTurn& turn) {
-  return formatted("camera mounting: a turn of %.0f deg cannot be excluded yet",
-                   geometry::kDegreesPerRad * turn.most_rad);
-}
-
-// All rotations by right angles.
-std::vector<Eigen::Matrix3d> rightAngles() {
-  std::vector<Eigen::Matrix3d> all;
-  for (int x = 0; x < 6; ++x)
-    for (int y = 0; y < 6; ++y) {
-      if (x / 2 == y / 2) continue;
-      Eigen::Matrix3d R;
-      R.col(0) = (x % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(x / 2);
-      R.col(1) = (y % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(y / 2);
-      R.col(2) = R.col(0).cross(R.col(1));
-      all.push_back(R);
-    }
-  return all;
-}
-
 }  // namespace
 
 struct MountingCheck::Setup {
@@ -122,10 +96,17 @@ struct MountingCheck::Trial {
   std::vector<Setup> left;
 };
 
+// Exchanged axes, and all turns by right angles.
 std::vector<MountingCheck::Setup> MountingCheck::setups() {
   std::vector<Setup> all{{Eigen::Matrix3d::Identity(), true}};
-  for (const Eigen::Matrix3d& turn : rightAngles())
-    if (!turn.isIdentity()) all.push_back({turn, false});
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y) {
+      Eigen::Matrix3d turn;
+      turn.col(0) = (x % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(x / 2);
+      turn.col(1) = (y % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(y / 2);
+      turn.col(2) = turn.col(0).cross(turn.col(1));
+      if (x / 2 != y / 2 && !turn.isIdentity()) all.push_back({turn, false});
+    }
   return all;
 }
 
@@ -235,13 +216,17 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
   if (turn.least_rad > kMaxTurnRad)
     verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
   else if (turn.least_with_heading_rad > kMaxTurnWithHeadingRad)
-    verdict_ = {FramesVerdict::kWrong, turnWithHeadingText(found.camera_turn)};
+    verdict_ = {FramesVerdict::kWrong,
+                formatted("camera mounting or odometry's heading turned by about %.0f deg in yaw",
+                          -geometry::kDegreesPerRad * found.camera_turn.with_heading_rad)};
   else if (!size_fault.empty())
     verdict_ = {FramesVerdict::kWrong, size_fault};
   else if (turn.most_rad < 2.0 * kMaxTurnRad)
     verdict_ = {FramesVerdict::kGood, ""};
   else if (verdict_.state != FramesVerdict::kWrong)
-    verdict_ = {FramesVerdict::kUndecided, undecidedText(turn)};
+    verdict_ = {FramesVerdict::kUndecided,
+                formatted("camera mounting: a turn of %.0f deg cannot be excluded yet",
+                          geometry::kDegreesPerRad * turn.most_rad)};
   if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "window_ingress/estimation/frames_verdict.hpp"
+#include "window_ingress/estimation/target_estimate.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 
@@ -42,6 +42,7 @@ class MountingCheck {
   const std::optional<SizeEstimate>& measuredSize() const { return measured_size_; }
 
  private:
+  static constexpr char kNothingYet[] = "camera mounting: not flown far enough yet";
   struct Image {
     detection::WindowObservation window;
     geometry::PinholeCamera camera;
@@ -75,7 +76,7 @@ class MountingCheck {
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
   std::shared_ptr<Trial> trial_;  ///< other setups, a few tried per image; null while all is well
   std::optional<SizeEstimate> measured_size_;
-  FramesVerdict verdict_{FramesVerdict::kUndecided, "camera mounting: not flown far enough yet"};
+  FramesVerdict verdict_{FramesVerdict::kUndecided, kNothingYet};
 };
 
 }  // namespace window_ingress::estimation

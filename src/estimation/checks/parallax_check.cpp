@@ -10,11 +10,9 @@ constexpr double kSpacingM = 0.02;
 constexpr double kLongestSec = 4.0;  // odometry drifts over longer times
 constexpr std::size_t kMin = 5;
 constexpr double kPlaceSigmaM = 0.015, kBearingSigmaRad = 0.005;  // of one image: odometry, attitude
-constexpr double kSpanFactor =
-    1.5;  // noise of a line through both ends of a path; points between help little
+constexpr double kSpanFactor = 1.5;  // noise of a line through both ends of a path, which others help little
 constexpr double kSigmas = 2.5;
-constexpr double kLateM =
-    0.15;  // motion and turn of the line of sight if odometry is a tenth of a second late
+constexpr double kLateM = 0.15;  // motion and turn of the line of sight if odometry is 0.1 s late
 constexpr double kDriftMPerSqrtSec = 0.02, kTurnRadPerSqrtSec = 0.003;
 constexpr double kOtherSlope = 0.35, kSameSlope = 0.5;
 

@@ -18,8 +18,7 @@ constexpr double kMaxOtherMisfit = 0.4;           // relative misfit of the mean
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces = 14;  // for a bias; a slide of three seconds affects a minority of them
 constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // prior: satellite navigation
-constexpr double kMaxBiasMps =
-    0.42;  // satellite navigation: 0.3 m/s, and its positions drift during the measurement
+constexpr double kMaxBiasMps = 0.42;  // satellite navigation: 0.3 m/s, and its positions drift meanwhile
 // Odometry with strong drift: jitter, random walk, scale error, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
 constexpr double kMaxSquares = 9.0;          // of one piece: outliers and slides are no frame error
@@ -49,10 +48,6 @@ std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3
 }
 
 double square(double value) { return value * value; }
-
-double normalised(double length_m, double variance) {
-  return std::min(square(length_m) / variance, kMaxSquares);
-}
 
 }  // namespace
 
@@ -130,8 +125,10 @@ TwistCheck::Sums TwistCheck::sums() const {
   for (const Piece& piece : pieces_) {
     sums.way_m += piece.way_m;
     sums.squares += square(piece.way_m) / piece.variance;
-    for (int k = 0; k < kMeanings; ++k)
-      sums.misfits[k] += normalised((piece.error_base_m[k] - piece.sec * bias_mps[k]).norm(), piece.variance);
+    for (int k = 0; k < kMeanings; ++k) {
+      const double error_m = (piece.error_base_m[k] - piece.sec * bias_mps[k]).norm();
+      sums.misfits[k] += std::min(square(error_m) / piece.variance, kMaxSquares);
+    }
   }
   return sums;
 }

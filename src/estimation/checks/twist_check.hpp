@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "window_ingress/estimation/frames_verdict.hpp"
+#include "window_ingress/estimation/target_estimate.hpp"
 
 namespace window_ingress::estimation {
 

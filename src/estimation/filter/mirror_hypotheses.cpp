@@ -1,5 +1,6 @@
 #include "estimation/filter/mirror_hypotheses.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +23,35 @@ bool passesGate(const std::optional<WindowHypothesis::Outcome>& outcome, const F
 }
 
 double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); }
+
+CameraTurn cameraTurn(const WindowHypothesis& window) {
+  constexpr auto kYaw = WindowState::kYawBias, kHeading = WindowState::kHeadingBias;
+  const auto& values = window.state().values;
+  const auto& covariance = window.covariance();
+  const double together =
+      covariance(kYaw, kYaw) + covariance(kHeading, kHeading) - 2.0 * covariance(kYaw, kHeading);
+  return {-values.segment<3>(WindowState::kPitchBias),
+          covariance.block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias),
+          values(kHeading) - values(kYaw), std::sqrt(std::max(0.0, together))};
+}
+
+Matrix6d covarianceOf(const WindowHypothesis& window, const FilterParams& params) {
+  const Eigen::Matrix4d pose = window.poseCovariance();
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = pose.topLeftCorner<3, 3>();
+  covariance.topRightCorner<3, 1>() = pose.topRightCorner<3, 1>();
+  covariance.bottomLeftCorner<1, 3>() = pose.bottomLeftCorner<1, 3>();
+  covariance(3, 3) = covariance(4, 4) = std::pow(params.attitude_bias_sigma_rad, 2);
+  covariance(5, 5) = pose(3, 3);
+  return covariance;
+}
+
+TargetMotion motionOf(const WindowHypothesis& window, const MotionModel& model) {
+  if (model.stands()) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(window.velocityCovariance(),
+                                                              Eigen::EigenvaluesOnly);
+  return {model, window.state().velocity(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
+}
 
 }  // namespace
 
@@ -131,6 +161,35 @@ void MirrorHypotheses::split(const Eigen::Vector3d& camera_position) {
   const double other = upperTail(sigmas);
   if (other < kMinWeight) return;
   hypotheses_ = {{window, std::log(1.0 - other)}, {window.mirrored(camera_position), std::log(other)}};
+}
+
+FilteredWindow MirrorHypotheses::windowAt(double age_sec, const Eigen::Vector3d& camera_position,
+                                          double unlearned_yaw_rad) const {
+  const auto predicted = [&](WindowHypothesis window) {
+    window.predict(params_, std::max(age_sec, 0.0), 0.0, camera_position);
+    window.addTurn(unlearned_yaw_rad, camera_position);
+    return window;
+  };
+  const Weighted &first = hypotheses_.front(), &last = hypotheses_.back();
+  const bool is_merged = hypotheses_.size() > 1 && areUnambiguous();
+  const WindowHypothesis window =
+      predicted(is_merged ? first.window.mergedWith(last.window, std::exp(last.log_weight)) : first.window);
+  FilteredWindow out;
+  out.age_sec = age_sec;
+  out.T_odom_window = window.T_odom_window();
+  out.covariance = covarianceOf(window, params_);
+  out.hypothesis_weight = std::exp(first.log_weight);
+  out.sign_trusted =
+      areUnambiguous() && window.yawFromSightSigma(camera_position) < params_.trusted_yaw_sigma_rad;
+  if (hypotheses_.size() > 1) {
+    const WindowHypothesis other = predicted(last.window);
+    out.alternative =
+        FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other, params_), cameraTurn(other)};
+  }
+  out.size = window.size();
+  out.camera_turn = cameraTurn(window);
+  out.motion = motionOf(window, params_.targetMotion());
+  return out;
 }
 
 }  // namespace window_ingress::estimation

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimation/filter/window_hypothesis.hpp"
-#include "window_ingress/estimation/filter_params.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
 
 namespace window_ingress::estimation {
 
@@ -40,6 +40,13 @@ class MirrorHypotheses {
 
   /// True if the mirror image is ruled out, or too near to matter.
   bool areUnambiguous() const;
+
+  /// State of the window `age_sec` after the last image; without the fields about the images (`stamp_sec`,
+  /// `updates`, `consistency`). Two hypotheses that need not be distinguished are merged with the spread of
+  /// both. Not if empty. \param camera_position at the last image, in odom [m]
+  /// \param unlearned_yaw_rad standard deviation of the camera's yaw in odom, beyond that of the hypotheses
+  FilteredWindow windowAt(double age_sec, const Eigen::Vector3d& camera_position,
+                          double unlearned_yaw_rad) const;
 
  private:
   void addMirrorImage(const FilterView& view, const SizeEstimate& size, const YawBias& yaw_bias,

@@ -7,7 +7,7 @@
 #include "estimation/planar/image_measurement.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
-#include "window_ingress/estimation/window_pose_estimate.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "estimation/planar/image_measurement.hpp"
-#include "window_ingress/estimation/camera_motion.hpp"
+#include "window_ingress/estimation/target_motion.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 

@@ -12,11 +12,8 @@ namespace {
 
 geometry::Quadrilateral normalisedCorners(const RefinementProblem& problem) {
   geometry::Quadrilateral corners;
-  const auto& camera = problem.camera;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d pixel = problem.image.cornersPx().segment<2>(2 * i);
-    corners[i] = {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
-  }
+  for (int i = 0; i < 4; ++i)
+    corners[i] = problem.camera.normalised(problem.image.cornersPx().segment<2>(2 * i));
   return corners;
 }
 
@@ -66,37 +63,26 @@ std::optional<Eigen::Matrix3d> windowHomography(const geometry::Quadrilateral& c
   return homography;
 }
 
-Eigen::Matrix3d rotationFromHomography(const Eigen::Matrix3d& homography) {
-  const double scale =
-      (homography(2, 2) < 0.0 ? -2.0 : 2.0) / (homography.col(0).norm() + homography.col(1).norm());
-  Eigen::Matrix3d columns;
-  columns.leftCols<2>() = scale * homography.leftCols<2>();
+std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography) {
+  const double length = 0.5 * (homography.col(0).norm() + homography.col(1).norm());
+  if (!homography.allFinite() || !(length > 1e-12) || std::abs(homography(2, 2)) < 1e-12) return std::nullopt;
+  Eigen::Matrix3d columns = homography * ((homography(2, 2) < 0.0 ? -1.0 : 1.0) / length);  // r1, r2, t
+  const Eigen::Vector3d t = columns.col(2);
   columns.col(2) = columns.col(0).cross(columns.col(1));
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(columns, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d product = svd.matrixU() * svd.matrixV().transpose();
   const Eigen::Vector3d handedness(1, 1, product.determinant() < 0.0 ? -1 : 1);
-  return svd.matrixU() * handedness.asDiagonal() * svd.matrixV().transpose();
-}
-
-std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography) {
-  const double length = 0.5 * (homography.col(0).norm() + homography.col(1).norm());
-  if (!homography.allFinite() || !(length > 1e-12) || std::abs(homography(2, 2)) < 1e-12) return std::nullopt;
-  const Eigen::Vector3d t = homography.col(2) * ((homography(2, 2) < 0.0 ? -1.0 : 1.0) / length);
+  const Eigen::Matrix3d R = svd.matrixU() * handedness.asDiagonal() * svd.matrixV().transpose();
   // R_optical_flu turns the window's axes into the plane's (right, down, away), seen from the window.
-  const Eigen::Matrix3d R = rotationFromHomography(homography) * geometry::R_optical_flu();
-  const Eigen::Isometry3d pose = geometry::makePose(R, t);
+  const Eigen::Isometry3d pose = geometry::makePose(R * geometry::R_optical_flu(), t);
   if (!geometry::isValidPose(pose)) return std::nullopt;
   return pose;
-}
-
-double aspectCorrection(const Eigen::Matrix3d& homography) {
-  return homography.col(0).norm() / homography.col(1).norm();
 }
 
 std::optional<FitPoint> startFromHomography(const RefinementProblem& problem) {
   auto homography = windowHomography(normalisedCorners(problem), problem.opening);
   if (!homography) return std::nullopt;
-  const double correction = aspectCorrection(*homography);
+  const double correction = homography->col(0).norm() / homography->col(1).norm();  // 1 for the true size
   const bool usable = std::isfinite(correction) && correction > 1e-3 && correction < 1e3;
   const Eigen::Vector2d deviation = usable ? widened(problem.size_root, correction) : Eigen::Vector2d::Zero();
   if (!deviation.isZero(0.0)) homography->col(0) /= correction;

@@ -17,22 +17,14 @@ namespace window_ingress::estimation {
 std::optional<Eigen::Matrix3d> windowHomography(const geometry::Quadrilateral& corners_normalised,
                                                 const geometry::OpeningSize& size);
 
-/// Rotation whose first two columns come closest to r1, r2 of H = s [r1 r2 t] (P12), in the plane's axes: x
-/// right, y down, z away from the viewer. r1 and r2 are not orthonormal under noise: projected onto SO(3) by
-/// SVD.
-Eigen::Matrix3d rotationFromHomography(const Eigen::Matrix3d& homography);
-
-/// Pose of the window frame (x into the opening, y left, z up) from its homography; t_z > 0 decides the sign
-/// of s. Nothing if H is singular, not finite or puts the centre into the camera's plane.
+/// Pose of the window frame (x into the opening, y left, z up) from H = s [r1 r2 t] (P12); t_z > 0 decides
+/// the sign of s. r1 and r2 are not orthonormal under noise: projected onto SO(3) by SVD. Nothing if H is
+/// singular, not finite or puts the centre into the camera's plane.
 std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography);
 
-/// Width over height of the opening, relative to that of the size used for the homography. In H = s [r1 r2
-/// t], r1 and r2 have equal length for the true size, so |h1| / |h2| is the factor by which the assumed ratio
-/// is too small.
-double aspectCorrection(const Eigen::Matrix3d& homography);
-
 /// Start of a fit: the pose from the homography for the prior size (P11, P12). If the prior lets the width
-/// vary alone, also the width that makes r1 and r2 equally long. Nothing without a homography.
+/// vary alone, also the width that makes r1 and r2 equally long, as they are for the true size: |h1| / |h2|
+/// is the factor by which the assumed width over height is too small. Nothing without a homography.
 std::optional<FitPoint> startFromHomography(const RefinementProblem& problem);
 
 /// Most likely width over height from this image alone, and gravity if known; the pose is fitted as well.

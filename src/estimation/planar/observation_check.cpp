@@ -19,27 +19,6 @@ bool isNearImage(const geometry::Quadrilateral& corners, const geometry::Pinhole
                      [&](const auto& p) { return camera.contains(p, -margin); });
 }
 
-WindowObservation reversed(const WindowObservation& window) {
-  WindowObservation out = window;
-  for (int i = 0; i < 4; ++i) {
-    out.corners[i] = window.corners[3 - i];
-    out.corner_covariance[i] = window.corner_covariance[3 - i];
-    out.edges[i] = window.edges[(6 - i) % 4];
-  }
-  return out;
-}
-
-WindowObservation startedAt(const WindowObservation& window, int first) {
-  WindowObservation out = window;
-  for (int i = 0; i < 4; ++i) {
-    const int from = (first + i) % 4;
-    out.corners[i] = window.corners[from];
-    out.corner_covariance[i] = window.corner_covariance[from];
-    out.edges[i] = window.edges[from];
-  }
-  return out;
-}
-
 std::string missingSides(const WindowObservation& window) {
   static const char* const kNames[] = {"top", "right", "bottom", "left"};
   std::string unseen;
@@ -88,16 +67,23 @@ std::string faultOfCorners(const WindowObservation& window, const geometry::Pinh
 
 WindowObservation upright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
   if (!window.whole()) return window;
-  const WindowObservation clockwise = geometry::signedArea(window.corners) < 0.0 ? reversed(window) : window;
-  const Eigen::Vector2d up = up_camera.head<2>();
+  const bool is_reversed = geometry::signedArea(window.corners) < 0.0;
+  const auto clockwise = [&](int i) { return is_reversed ? 3 - i % 4 : i % 4; };
   const auto height = [&](int first) {
-    const auto& c = clockwise.corners;
-    return (c[first] + c[(first + 1) % 4] - c[(first + 2) % 4] - c[(first + 3) % 4]).dot(up);
+    const auto corner = [&](int i) -> const Eigen::Vector2d& { return window.corners[clockwise(first + i)]; };
+    return (corner(0) + corner(1) - corner(2) - corner(3)).dot(up_camera.head<2>());
   };
   int best = 0;
   for (int first = 1; first < 4; ++first)
     if (height(first) > height(best)) best = first;
-  return startedAt(clockwise, best);
+  WindowObservation out = window;
+  for (int i = 0; i < 4; ++i) {
+    const int from = clockwise(best + i);
+    out.corners[i] = window.corners[from];
+    out.corner_covariance[i] = window.corner_covariance[from];
+    out.edges[i] = window.edges[is_reversed ? (from + 3) % 4 : from];  // between corner i and the next
+  }
+  return out;
 }
 
 }  // namespace window_ingress::estimation

@@ -26,11 +26,18 @@ bool hasConverged(const NormalEquations& equations, const Vector8d& step) {
   return step.dot(equations.information * step) < 1e-12 * (1.0 + equations.cost);
 }
 
+// The residual is the weighted cross product of the window's and gravity's up.
 void addGravity(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window, NormalEquations& out) {
-  const GravityResidual gravity = gravityResidual(prior, R_camera_window);
-  out.cost += 0.5 * gravity.residual.squaredNorm();
-  out.information.block<3, 3>(3, 3) += gravity.by_rotation.transpose() * gravity.by_rotation;
-  out.gradient.segment<3>(3) += gravity.by_rotation.transpose() * gravity.residual;
+  const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
+  const Eigen::Vector3d residual = window_up.cross(up) / prior.sigma_rad;
+  const Eigen::Matrix3d by_rotation = skew(up) * skew(window_up) / prior.sigma_rad;
+  out.cost += 0.5 * residual.squaredNorm();
+  out.information.block<3, 3>(3, 3) += by_rotation.transpose() * by_rotation;
+  out.gradient.segment<3>(3) += by_rotation.transpose() * residual;
+}
+
+geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point) {
+  return scaled(problem.opening, problem.size_root * point.size_deviation);
 }
 
 CornerVector throughLens(const geometry::PinholeCamera& camera, CornerVector corners_px) {
@@ -59,15 +66,6 @@ std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const
 }
 
 }  // namespace
-
-geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point) {
-  return scaled(problem.opening, problem.size_root * point.size_deviation);
-}
-
-GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window) {
-  const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
-  return {window_up.cross(up) / prior.sigma_rad, skew(up) * skew(window_up) / prior.sigma_rad};
-}
 
 std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point) {
   const auto predicted = predictOpening(problem.camera, point.T_camera_window, openingAt(problem, point));

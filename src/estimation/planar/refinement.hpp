@@ -4,9 +4,8 @@
 #include <optional>
 
 #include "estimation/planar/image_measurement.hpp"
-#include "window_ingress/estimation/gravity_prior.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
-#include "window_ingress/estimation/window_pose_estimate.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {
@@ -26,15 +25,6 @@ struct FitPoint {
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();
   Eigen::Vector2d size_deviation = Eigen::Vector2d::Zero();
 };
-
-geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point);
-
-/// Weighted cross product of the window's and gravity's up; derivative by rotation about the camera's axes.
-struct GravityResidual {
-  Eigen::Vector3d residual;
-  Eigen::Matrix3d by_rotation;
-};
-GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window);
 
 /// Cost of a point with the normal equations at it: six parameters of the pose as in `moved`, two of the
 /// size.

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "estimation/planar/predicted_opening.hpp"
+#include "estimation/planar/image_measurement.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -19,7 +19,7 @@ void walkAlong(FacadeMap& map, const test::WindowRow& row, const std::optional<W
 
 int confirmed(const FacadeMap& map) {
   int count = 0;
-  for (const KnownWindow& window : map.windows()) count += map.isConfirmed(window);
+  for (const KnownWindow& window : map.windows()) count += window.isConfirmed();
   return count;
 }
 
@@ -132,10 +132,10 @@ TEST(FacadeMap, WhatWasSeenBesideAWindowStaysApartFromTheOneThatItBecomes) {
   look(map, 11.0, {0, 1});
   ASSERT_EQ(confirmed(map), 3);
   const std::uint32_t oldest = map.windows()[0].id, beside = map.windows()[1].id;
-  map.correct(oldest, placed(1));
+  map.find(oldest)->place = placed(1);
   look(map, 12.0, {});
   ASSERT_EQ(confirmed(map), 2) << "2 is 1";
-  map.correct(oldest, placed(0));
+  map.find(oldest)->place = placed(0);
   look(map, 13.0, {});
   EXPECT_NE(map.find(beside), nullptr) << "0 was seen beside it";
 }

@@ -22,8 +22,8 @@ struct Watch {
   /// \param target index in the row of the window that the detector tracks, -1: none
   void look(int images, int target) {
     for (int n = 0; n < images; ++n, now_sec += 0.1) {
-      const auto filtered = target < 0 ? std::nullopt : std::optional(row.filtered(target, now_sec));
-      memory.addView(row.look(now_sec, view, target, random), filtered, row.size);
+      const auto tracked = target < 0 ? std::nullopt : std::optional(row.tracked(target));
+      memory.addView(row.look(now_sec, view, target, random), tracked, row.size);
     }
   }
   const KnownWindow& at(int i) const {
@@ -89,15 +89,15 @@ TEST(FacadeMemory, LetsTheOperatorChooseByNumberOrByAClick) {
   EXPECT_EQ(watch.memory.target(), &watch.at(0)) << "what was refused changes nothing";
 }
 
-// Windows 1 and 3 of the row were never seen side by side. Then the filter finds window 3 at the place of
+// Windows 1 and 3 of the row were never seen side by side. Then the estimate has window 3 at the place of
 // window 1.
 TEST(FacadeMemory, AChosenWindowStaysTheTargetWhereItTurnsOutToBeOneWithAnOlderOne) {
   Watch watch;
-  const auto look = [&](int seen, bool is_target, const std::optional<estimation::FilteredWindow>& filtered) {
+  const auto look = [&](int seen, bool is_target, const std::optional<TrackedWindow>& tracked) {
     for (int n = 0; n < 4; ++n, watch.now_sec += 0.1) {
       auto window = *watch.row.seen(seen, watch.view, watch.random);
       window.is_target = is_target;
-      watch.memory.addView({watch.now_sec, watch.view, {window}, is_target ? 7u : 0u}, filtered,
+      watch.memory.addView({watch.now_sec, watch.view, {window}, is_target ? 7u : 0u}, tracked,
                            watch.row.size);
     }
   };
@@ -106,7 +106,7 @@ TEST(FacadeMemory, AChosenWindowStaysTheTargetWhereItTurnsOutToBeOneWithAnOlderO
   ASSERT_EQ(watch.memory.windows().size(), 2u);
   const std::uint32_t younger = watch.memory.windows().back().id;
   ASSERT_TRUE(watch.memory.select(younger).success);
-  look(3, true, watch.row.filtered(1, watch.now_sec));
+  look(3, true, watch.row.tracked(1));
   EXPECT_EQ(watch.memory.windows().front().id, younger) << "of two numbers the chosen one stays";
   EXPECT_EQ(watch.memory.targetId(), younger);
   EXPECT_TRUE(watch.memory.isChosen());
@@ -179,7 +179,7 @@ TEST(FacadeMemory, TheNextOneHasTheSizeLookedFor) {
     for (auto& corner : pane.corners) corner = centre + 0.5 * (corner - centre) + Eigen::Vector2d(60.0, 0.0);
     pane.is_target = false;
     look.windows.push_back(pane);
-    watch.memory.addView(look, watch.row.filtered(0, watch.now_sec), watch.row.size);
+    watch.memory.addView(look, watch.row.tracked(0), watch.row.size);
   }
   ASSERT_EQ(watch.memory.windows().size(), 2u);
   watch.memory.giveUp({watch.memory.targetId()}, true);

@@ -15,8 +15,8 @@ facade::FacadeMemory memoryOfARow() {
   facade::FacadeMemory memory{facade::FacadeParams()};
   std::mt19937 random(1);
   for (int n = 0; n < 20; ++n)
-    memory.addView(row.look(10.0 + 0.1 * n, row.from({-8.0, -3.8, 1.5}), 2, random),
-                   row.filtered(2, 10.0 + 0.1 * n), row.size);
+    memory.addView(row.look(10.0 + 0.1 * n, row.from({-8.0, -3.8, 1.5}), 2, random), row.tracked(2),
+                   row.size);
   return memory;
 }
 

@@ -51,9 +51,10 @@ TEST(Homography, RotationIsOneUnderNoise) {
     disturb(window, 0.01, random);
     const auto H = windowHomography(window.corners, kOpening);
     ASSERT_TRUE(H);
-    const Eigen::Matrix3d R = rotationFromHomography(*H);
-    EXPECT_TRUE(R.isUnitary(1e-9));
-    EXPECT_NEAR(R.determinant(), 1.0, 1e-9);
+    const auto pose = poseFromHomography(*H);
+    ASSERT_TRUE(pose);
+    EXPECT_TRUE(pose->linear().isUnitary(1e-9));
+    EXPECT_NEAR(pose->linear().determinant(), 1.0, 1e-9);
   }
 }
 

@@ -14,11 +14,9 @@ void ConsistencyMonitor::add(double squares, int degrees_of_freedom) {
   note({squares, degrees_of_freedom});
 }
 
-void ConsistencyMonitor::refuse() { note({0.0, 0}); }
-
 void ConsistencyMonitor::note(const Sample& sample) {
   samples_.push_back(sample);
-  if (samples_.size() > images_) samples_.pop_front();
+  if (samples_.size() > std::size_t{kImages}) samples_.pop_front();
 }
 
 Consistency ConsistencyMonitor::consistency() const {
@@ -29,11 +27,12 @@ Consistency ConsistencyMonitor::consistency() const {
     degrees_of_freedom += sample.degrees_of_freedom;
     out.refused += sample.degrees_of_freedom == 0;
   }
-  out.images = static_cast<int>(samples_.size()) - out.refused;
+  const int seen = static_cast<int>(samples_.size());
+  out.images = seen - out.refused;
   if (degrees_of_freedom > 0.0) out.mean_nis = squares / degrees_of_freedom;
-  const bool few = 2 * samples_.size() < images_;
+  const bool few = 2 * seen < kImages;
   out.consistent = few || out.mean_nis <= kMaxMeanNis;
-  out.contradicted = !few && out.refused > kMaxRefused * static_cast<double>(samples_.size());
+  out.contradicted = !few && out.refused > kMaxRefused * seen;
   return out;
 }
 

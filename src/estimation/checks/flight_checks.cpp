@@ -1,7 +1,8 @@
-#include "estimation/checks/attitude_check.hpp"
+#include "estimation/checks/flight_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
@@ -26,6 +27,35 @@ bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Mat
               formatted("attitudes of imu and odometry differ by %.0f deg: different axes?",
                         apart_rad * geometry::kDegreesPerRad)};
   return false;
+}
+
+FramesVerdict FlightChecks::frames() const {
+  const FramesVerdict mounted = mounting.verdict(), twisted = twist.verdict(), tilted = attitude.verdict();
+  const auto are = [&](FramesVerdict::State state) {
+    return (mounted.state == state) + (twisted.state == state);
+  };
+  const bool wrong = are(FramesVerdict::kWrong) > 0 || tilted.state == FramesVerdict::kWrong;
+  FramesVerdict out;
+  out.state = wrong                            ? FramesVerdict::kWrong
+              : are(FramesVerdict::kGood) == 2 ? FramesVerdict::kGood
+                                               : FramesVerdict::kUndecided;
+  for (const FramesVerdict& part :
+       wrong ? std::vector{mounted, tilted, twisted} : std::vector{mounted, twisted})
+    if (part.state == out.state) out.what += (out.what.empty() ? "" : "; ") + part.what;
+  return out;
+}
+
+void FlightChecks::clear() {
+  mounting.clear();
+  parallax.clear();
+  twist.clear();
+  attitude.clear();
+}
+
+void FlightChecks::forgetPlaces() {
+  mounting.forgetPlaces();
+  parallax.clear();
+  twist.startPiece();
 }
 
 }  // namespace window_ingress::estimation

@@ -1,4 +1,4 @@
-#include "estimation/checks/odometry_smoother.hpp"
+#include "estimation/filter/odometry_smoother.hpp"
 
 #include <cmath>
 
