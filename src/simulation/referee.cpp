@@ -23,6 +23,7 @@ void Referee::update(double time_sec, const VehicleTruth& truth) {
   Sample now;
   now.time_sec = time_sec_ = time_sec;
   now.T_window_base = course_.T_odom_window.inverse() * truth.T_odom_base;
+  now.position = now.T_window_base.translation();
   now.reach_m = boundingHalfExtents(now.T_window_base.linear(), course_.vehicle_half_extents_m);
   const double speed_mps = truth.velocity_odom_mps.norm();
   max_speed_mps_ = std::max(max_speed_mps_, speed_mps);
@@ -42,14 +43,13 @@ void Referee::touch(const std::string& name, double time_sec) {
 }
 
 void Referee::watchContacts(const Sample& now) {
-  const double gap_m = now.T_window_base.translation().z() - now.reach_m.z() - course_.ground_z_m;
+  const double gap_m = now.position.z() - now.reach_m.z() - course_.ground_z_m;
   airborne_ = airborne_ || gap_m > kAirborneGap_m;
   if (airborne_ && gap_m <= 0.0) touch("ground", now.time_sec);
   const double reach_m = now.reach_m.norm();
-  const Eigen::Vector3d position = now.T_window_base.translation();
   for (const Obstacle& obstacle : course_.obstacles) {
     if (touched()) return;
-    if (obstacle.box.squaredExteriorDistance(position) > reach_m * reach_m) continue;
+    if (obstacle.box.squaredExteriorDistance(now.position) > reach_m * reach_m) continue;
     if (touches(now.T_window_base, course_.vehicle_half_extents_m, obstacle.box))
       touch(obstacle.name, now.time_sec);
   }
@@ -57,24 +57,23 @@ void Referee::watchContacts(const Sample& now) {
 
 void Referee::watchNearest(const Sample& now) {
   if (!airborne_) return;
-  const Eigen::Vector3d position = now.T_window_base.translation();
   for (const Obstacle& obstacle : course_.obstacles) {
     const Eigen::AlignedBox3d grown(obstacle.box.min() - now.reach_m, obstacle.box.max() + now.reach_m);
-    const double square = grown.squaredExteriorDistance(position);
+    const double square = grown.squaredExteriorDistance(now.position);
     if (square < nearest_m_ * nearest_m_) nearest_m_ = std::sqrt(square);
   }
 }
 
 void Referee::watchSides(const Sample& now) {
-  const double y_m = now.T_window_base.translation().y();
+  const double y_m = now.position.y();
   if (!start_y_m_) start_y_m_ = y_m;
-  if (now.T_window_base.translation().x() >= 0.0) return;
+  if (now.position.x() >= 0.0) return;
   wrong_side_m_ = std::max(wrong_side_m_, std::abs(y_m) - std::abs(*start_y_m_));
 }
 
 void Referee::watchCrossing(const Sample& now) {
   if (!previous_) return;
-  const Eigen::Vector3d a = previous_->T_window_base.translation(), b = now.T_window_base.translation();
+  const Eigen::Vector3d a = previous_->position, b = now.position;
   if (a.x() >= 0.0 && b.x() < 0.0) crossing_.reset();
   if (!(a.x() < 0.0 && b.x() >= 0.0)) return;
   const double part = -a.x() / (b.x() - a.x());
@@ -86,11 +85,11 @@ void Referee::watchCrossing(const Sample& now) {
 }
 
 void Referee::watchClearance(const Sample& now) {
-  const Eigen::Vector3d position = now.T_window_base.translation();
-  if (position.x() + now.reach_m.x() < 0.0 || position.x() - now.reach_m.x() > course_.wall_thickness_m)
+  if (now.position.x() + now.reach_m.x() < 0.0 ||
+      now.position.x() - now.reach_m.x() > course_.wall_thickness_m)
     return;
-  const double sideways_m = 0.5 * course_.opening.width_m - std::abs(position.y()) - now.reach_m.y();
-  const double upright_m = 0.5 * course_.opening.height_m - std::abs(position.z()) - now.reach_m.z();
+  const double sideways_m = 0.5 * course_.opening.width_m - std::abs(now.position.y()) - now.reach_m.y();
+  const double upright_m = 0.5 * course_.opening.height_m - std::abs(now.position.z()) - now.reach_m.z();
   const double clearance_m = std::min(sideways_m, upright_m);
   const bool centre_outside = sideways_m + now.reach_m.y() < 0.0 || upright_m + now.reach_m.z() < 0.0;
   if (centre_outside) return;
@@ -98,7 +97,7 @@ void Referee::watchClearance(const Sample& now) {
 }
 
 void Referee::watchStanding(const Sample& now, double speed_mps) {
-  const bool behind = now.T_window_base.translation().x() - now.reach_m.x() > course_.wall_thickness_m;
+  const bool behind = now.position.x() - now.reach_m.x() > course_.wall_thickness_m;
   if (!behind || speed_mps >= kStandingSpeed_mps) {
     standing_since_sec_.reset();
     return;

@@ -81,6 +81,7 @@ class Referee {
   struct Sample {
     double time_sec = 0.0;
     Eigen::Isometry3d T_window_base = Eigen::Isometry3d::Identity();
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Vector3d reach_m = Eigen::Vector3d::Zero();  // of the turned box, along the window's axes
   };
   void watchContacts(const Sample& now);

@@ -38,12 +38,6 @@ class DelayLine {
     waiting_.pop_front();
     return oldest;
   }
-  /// Takes the latest value that has arrived, and drops the older ones.
-  std::optional<Value> takeLatest(double now_sec) {
-    std::optional<Value> latest;
-    while (auto next = take(now_sec)) latest = std::move(next);
-    return latest;
-  }
 
  private:
   std::deque<std::pair<double, Value>> waiting_;

@@ -134,16 +134,9 @@ void World::deliver() {
 }
 
 void World::obey() {
-  while (const auto command = commands_.take(time_sec_, acting("cmd_vel"))) {
-    VelocityCommand true_axes = *command;
-    true_axes.velocity_odom_mps = odometry_.drift().linear().transpose() * command->velocity_odom_mps;
-    quadrotor_.command(true_axes);
-  }
-}
-
-Eigen::Isometry3d World::cameraInWindow(const Exposure& exposure) const {
-  const VehicleTruth beside = sway_.besideHouse(exposure.truth, exposure.stamp_sec);
-  return T_odom_window_.inverse() * beside.T_odom_base * T_base_camera_;
+  const Eigen::Matrix3d true_axes = odometry_.drift().linear().transpose();
+  while (const auto command = commands_.take(time_sec_, acting("cmd_vel")))
+    quadrotor_.command({true_axes * command->velocity_odom_mps, command->yaw_rate_radps});
 }
 
 void World::advance() {
@@ -176,7 +169,8 @@ std::optional<CameraFrame> World::takeFrame() {
 CameraFrame World::draw(const Exposure& exposure) {
   CameraFrame frame;
   frame.stamp_sec = exposure.stamp_sec;
-  frame.T_camera_window = cameraInWindow(exposure).inverse();
+  const VehicleTruth beside = sway_.besideHouse(exposure.truth, exposure.stamp_sec);
+  frame.T_camera_window = (T_odom_window_.inverse() * beside.T_odom_base * T_base_camera_).inverse();
   if (!camera_) return frame;
   const auto motion = CameraTruth::of(exposure.shown, T_odom_window_, T_base_camera_);
   frame.image = camera_->expose(motion, exposure.index, exposure.stamp_sec);

@@ -100,7 +100,6 @@ class World {
   double restHeight() const;
   void deliver();
   void obey();
-  Eigen::Isometry3d cameraInWindow(const Exposure& exposure) const;
 
   Scenario scenario_;
   std::uint32_t seed_;
@@ -115,12 +114,12 @@ class World {
   ImuSensor imu_;
   FollowedVehicle followed_;
   FaultPlan faults_;
-  CommandLine commands_;
-  OdometryLine odometry_line_, transforms_;
-  ImuLine imu_line_;
-  CalibrationLine calibrations_;
-  ImageLine images_;
-  ClockLine clock_;
+  FaultLine<VelocityCommand> commands_;
+  FaultLine<OdometrySample> odometry_line_, transforms_;
+  FaultLine<ImuSample> imu_line_;
+  FaultLine<CalibrationSample> calibrations_;
+  FaultLine<Exposure> images_;
+  FaultLine<double> clock_;
   Periodic shutter_;
   CameraTransport transport_;
   DelayLine<Exposure> exposures_;

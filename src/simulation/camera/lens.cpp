@@ -142,15 +142,11 @@ Lens::Lens(const PinholeCamera& camera) : size_(camera.width, camera.height) {
     refuse(camera, "is too strong for this field of view");
   }
   if (cv::countNonZero(pixels.unseen) > 0) unseen_ = pixels.unseen;
-  keep(pixels.map);
-}
-
-void Lens::keep(const cv::Mat& map) {
   for (const IdealPlane& plane : planes_) {
     ideal_size_.width = std::max(ideal_size_.width, plane.part.br().x);
     ideal_size_.height = std::max(ideal_size_.height, plane.part.br().y);
   }
-  cv::convertMaps(map, cv::noArray(), map_, map_fraction_, CV_16SC2);
+  cv::convertMaps(pixels.map, cv::noArray(), map_, map_fraction_, CV_16SC2);
 }
 
 void Lens::distort(const cv::Mat& ideal_image, cv::Mat& image) const {

@@ -39,8 +39,6 @@ class Lens {
   void distort(const cv::Mat& ideal_image, cv::Mat& image) const;
 
  private:
-  void keep(const cv::Mat& map);
-
   std::vector<IdealPlane> planes_;
   cv::Size ideal_size_, size_;
   cv::Mat map_, map_fraction_, unseen_;

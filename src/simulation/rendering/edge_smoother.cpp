@@ -7,8 +7,8 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kSnap_px =
-    0.02;  // OpenGL snaps vertices to a grid of 1/256 px: sides may pass on the other side of a centre
+// OpenGL snaps vertices to a grid of 1/256 px: sides may pass on the other side of a centre.
+constexpr double kSnap_px = 0.02;
 
 // Integral of clamp(x, 0, 1).
 double ramp(double x) { return x <= 0.0 ? 0.0 : x >= 1.0 ? x - 0.5 : 0.5 * x * x; }
@@ -27,14 +27,6 @@ void mix(std::uint8_t* pixel, double own_part, const std::uint8_t* other) {
 }
 
 }  // namespace
-
-// A side of a face, followed pixel by pixel along its longer axis.
-struct EdgeSmoother::Walk {
-  std::uint8_t surface;
-  std::ptrdiff_t along_stride, across_stride;  // [px]
-  int across_first, across_last;
-  double from, across, slope, inverse_depth, inverse_depth_slope;  // at `from` on the long axis; per pixel
-};
 
 EdgeSmoother::EdgeSmoother(const geometry::PinholeCamera& camera) : camera_(camera) {
   for (auto& found : found_) found.assign(static_cast<std::size_t>(camera.width) * camera.height, 0);
@@ -56,6 +48,7 @@ void EdgeSmoother::smooth(const std::vector<Face>& faces, const std::vector<std:
   mixAll();
 }
 
+// Follows a side of a face pixel by pixel along its longer axis.
 void EdgeSmoother::follow(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& to_camera,
                           std::uint8_t surface) {
   Eigen::Vector3d a = from_camera, b = to_camera;
@@ -76,29 +69,25 @@ void EdgeSmoother::follow(const Eigen::Vector3d& from_camera, const Eigen::Vecto
   const int last = static_cast<int>(std::floor(std::clamp<double>(q[along], -1.0, allowed.end - 1)));
   if (last < first) return;
   const Eigen::Vector3d slope = (q - p) / (q[along] - p[along]);
-  const int right = 1, down = camera_.width;
-  const Walk walk{surface,  flat ? right : down, flat ? down : right, other.start, other.end - 1,
-                  p[along], p[across],           slope[across],       p.z(),       slope.z()};
-  for (int i = first; i <= last; ++i) step(walk, i);
-}
-
-void EdgeSmoother::step(const Walk& walk, int along) {
-  const double across = walk.across + walk.slope * (along - walk.from);
-  if (!(across >= walk.across_first - kSnap_px && across < walk.across_last + kSnap_px)) return;
-  int before = static_cast<int>(std::floor(across));
-  const auto differs = [&](int at) {
-    if (at < walk.across_first || at >= walk.across_last) return false;
-    const std::uint8_t* pixel = drawn_ + 4 * (along * walk.along_stride + at * walk.across_stride);
-    return (pixel[3] == walk.surface) != (pixel[4 * walk.across_stride + 3] == walk.surface);
-  };
-  if (!differs(before)) {
-    const double part = across - before;
-    before += part < kSnap_px ? -1 : part > 1.0 - kSnap_px ? 1 : 0;
-    if (!differs(before)) return;
+  const std::ptrdiff_t right = 1, down = camera_.width, stride = flat ? down : right;
+  for (int i = first; i <= last; ++i) {
+    const double at = p[across] + slope[across] * (i - p[along]);
+    if (!(at >= other.start - kSnap_px && at < other.end - 1 + kSnap_px)) continue;
+    const std::ptrdiff_t origin = i * (flat ? right : down);
+    const auto differs = [&](int k) {
+      if (k < other.start || k >= other.end - 1) return false;
+      const std::uint8_t* pixel = drawn_ + 4 * (origin + k * stride);
+      return (pixel[3] == surface) != (pixel[4 * stride + 3] == surface);
+    };
+    int before = static_cast<int>(std::floor(at));
+    if (!differs(before)) {
+      const double part = at - before;
+      before += part < kSnap_px ? -1 : part > 1.0 - kSnap_px ? 1 : 0;
+      if (!differs(before)) continue;
+    }
+    keepNearest({origin + before * stride, stride, p.z() + slope.z() * (i - p[along]), at - (before - 0.5),
+                 std::abs(slope[across])});
   }
-  keepNearest({along * walk.along_stride + before * walk.across_stride, walk.across_stride,
-               walk.inverse_depth + walk.inverse_depth_slope * (along - walk.from), across - (before - 0.5),
-               std::abs(walk.slope)});
 }
 
 void EdgeSmoother::keepNearest(const Crossing& crossing) {

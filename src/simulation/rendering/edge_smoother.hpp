@@ -30,7 +30,6 @@ class EdgeSmoother {
               cv::Mat& image);
 
  private:
-  struct Walk;
   /// Where a side passes between pixel `first` and `first + stride`.
   struct Crossing {
     std::ptrdiff_t first, stride;  // [px]
@@ -39,14 +38,12 @@ class EdgeSmoother {
     double slope;                  // motion of the side across, over one pixel along [px]
   };
   void follow(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& to_camera, std::uint8_t surface);
-  void step(const Walk& walk, int along);
   void keepNearest(const Crossing& crossing);
   void mixAll();
 
   geometry::PinholeCamera camera_;
   std::vector<Crossing> crossings_;
-  std::array<std::vector<int>, 2>
-      found_;  // number of the crossing + 1, to the right neighbour and to the lower one
+  std::array<std::vector<int>, 2> found_;  // number of the crossing + 1, to the right and downwards
   const std::uint8_t* drawn_ = nullptr;
   std::uint8_t* image_ = nullptr;
   cv::Range rows_;

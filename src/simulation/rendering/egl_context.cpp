@@ -5,6 +5,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +32,10 @@ EGLDisplay theDisplay() {
   return display;
 }
 
+struct DestroyEgl {
+  void operator()(EGLContext context) const { eglDestroyContext(theDisplay(), context); }
+};
+
 // A context without surface: needs neither a display nor a graphics card.
 class EglContext : public GlContext {
  public:
@@ -38,30 +43,22 @@ class EglContext : public GlContext {
     chooseDriver();
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with the older functions
     const EGLDisplay display = theDisplay();
-    context_ = eglBindAPI(EGL_OPENGL_API)
-                   ? eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)
-                   : EGL_NO_CONTEXT;
-    if (context_ == EGL_NO_CONTEXT) fail("gives no OpenGL context");
-    try {
-      const CurrentContext current(*this);
-      load(eglGetProcAddress);
-    } catch (...) {
-      eglDestroyContext(display, context_);
-      throw;
-    }
+    if (eglBindAPI(EGL_OPENGL_API))
+      context_.reset(eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes));
+    if (!context_) fail("gives no OpenGL context");
+    const CurrentContext current(*this);
+    load(eglGetProcAddress);
   }
 
-  ~EglContext() override { eglDestroyContext(theDisplay(), context_); }
-
   void makeCurrent() override {
-    if (!eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    if (!eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_.get()))
       fail("refuses to make its context current");
   }
 
   void release() override { eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
  private:
-  EGLContext context_;
+  std::unique_ptr<void, DestroyEgl> context_;  // an EGLContext is a void*
 };
 
 }  // namespace

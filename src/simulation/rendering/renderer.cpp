@@ -11,7 +11,6 @@
 
 #include "simulation/rendering/edge_smoother.hpp"
 #include "simulation/rendering/gl_context.hpp"
-#include "simulation/rendering/gl_target.hpp"
 #include "simulation/scene/glazing.hpp"
 #include "simulation/surfaces/faces.hpp"
 #include "window_ingress/geometry/opening.hpp"
@@ -74,7 +73,7 @@ void requireUsable(const geometry::PinholeCamera& camera) {
 
 struct Renderer::Impl {
   Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind,
-       std::unique_ptr<GlContext> given)
+       std::shared_ptr<GlContext> given)
       : camera(ideal),
         opening(scene.opening),
         other_clear_holes(scene.other_clear_holes),
@@ -150,8 +149,7 @@ struct Renderer::Impl {
   }
 
   void setFog(const GlFunctions& gl) const {
-    const Eigen::Vector4f colour(static_cast<float>(fog->colour.x()), static_cast<float>(fog->colour.y()),
-                                 static_cast<float>(fog->colour.z()), 1.0F);
+    const Eigen::Vector4f colour = fog->colour.homogeneous().cast<float>();
     gl.Enable(GL_FOG);
     gl.Fogi(GL_FOG_DISTANCE_MODE_NV, GL_EYE_PLANE);  // signed distance: faces extend behind the camera
     gl.Fogf(GL_FOG_DENSITY, static_cast<GLfloat>(fog->density_per_m));
@@ -189,17 +187,15 @@ struct Renderer::Impl {
     const cv::Rect part(0, rows.start, camera.width, rows.size());
     const cv::Rect indoors = roomIn(T_camera_window) & part, panes = glazing.partIn(T_camera_window) & part;
     if (!panes.empty()) drawMirrored(gl, T_camera_window, panes);
-    visible.find(faces, camera, T_camera_window, !indoors.empty());
+    visible = visibleFaces(faces, camera, T_camera_window, !indoors.empty());
     target.bind(gl);
     drawFaces(gl, T_camera_window, visible, part, indoors);
     if (!panes.empty()) drawPanes(gl, T_camera_window, panes);
   }
 
   void drawMirrored(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Rect& part) {
-    const Eigen::Isometry3d T_camera_mirrored = glazing.mirrored(T_camera_window);
-    mirrored.find(faces, camera, T_camera_mirrored, false);
-    glazing.beginMirror(gl, T_camera_mirrored);
-    drawFaces(gl, T_camera_mirrored, mirrored, part, {});
+    const Eigen::Isometry3d T_camera_mirrored = glazing.beginMirror(gl, T_camera_window);
+    drawFaces(gl, T_camera_mirrored, visibleFaces(faces, camera, T_camera_mirrored, false), part, {});
     glazing.endMirror(gl);
   }
 
@@ -215,13 +211,12 @@ struct Renderer::Impl {
 
   // Draws near faces first, because they hide far ones before those are painted. Consecutive faces with the
   // same texture are drawn at once.
-  void drawFaces(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const VisibleFaces& seen,
-                 const cv::Rect& part, const cv::Rect& indoors) {
+  void drawFaces(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window,
+                 const std::vector<std::size_t>& order, const cv::Rect& part, const cv::Rect& indoors) {
     gl.Enable(GL_SCISSOR_TEST);
     scissor(gl, part);
     gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers every other pixel
     gl.LoadMatrixd(T_camera_window.matrix().data());
-    const auto& order = seen.order();
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       const Mesh::Batch& batch = faces[order[first]].batch;
       indices.clear();
@@ -251,7 +246,7 @@ struct Renderer::Impl {
     cv::Mat part = image.rowRange(rows);
     cv::cvtColor(rgba.rowRange(rows), part, cv::COLOR_RGBA2BGR);
     if (antialiasing == Antialiasing::kEdges)
-      smoother.smooth(faces, visible.order(), T_camera_window, rgba, rows, image);
+      smoother.smooth(faces, visible, T_camera_window, rgba, rows, image);
   }
 
   geometry::PinholeCamera camera;
@@ -259,11 +254,11 @@ struct Renderer::Impl {
   bool other_clear_holes;
   std::optional<Fog> fog;
   Antialiasing antialiasing;
-  std::unique_ptr<GlContext> context;
+  std::shared_ptr<GlContext> context;
   GlTarget target;
   std::vector<Face> faces;
   Glazing glazing;
-  VisibleFaces visible, mirrored;
+  std::vector<std::size_t> visible;
   EdgeSmoother smoother;
   GLuint buffer = 0;
   std::map<Texture, GLuint> textures;
@@ -271,11 +266,8 @@ struct Renderer::Impl {
   cv::Mat rgba;
 };
 
-Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing)
-    : Renderer(scene, camera, antialiasing, nullptr) {}
-
 Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing,
-                   std::unique_ptr<GlContext> context) {
+                   std::shared_ptr<GlContext> context) {
   requireUsable(camera);
   impl_ = std::make_unique<Impl>(scene, camera, antialiasing, context ? std::move(context) : makeGlContext());
 }

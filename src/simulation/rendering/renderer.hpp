@@ -27,11 +27,9 @@ class Renderer {
  public:
   /// \throws std::runtime_error if there is no software renderer, std::invalid_argument for a camera that
   /// cannot be used or has distortion
+  /// \param context instead of one of the configured library
   Renderer(const Scene& scene, const geometry::PinholeCamera& camera,
-           Antialiasing antialiasing = Antialiasing::kEdges);
-  /// Uses `context` instead of the configured library's.
-  Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing,
-           std::unique_ptr<GlContext> context);
+           Antialiasing antialiasing = Antialiasing::kEdges, std::shared_ptr<GlContext> context = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

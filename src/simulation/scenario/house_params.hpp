@@ -21,18 +21,15 @@ struct ColourParams {
 
 /// The target: a rectangular window with a coloured frame, open unless `closed_by` says otherwise.
 struct WindowParams {
-  bool present = true;    ///< false: solid wall in place of the window
-  double width_m = 1.2;   ///< inner width of the opening [m]
-  double height_m = 1.0;  ///< inner height of the opening [m]
-  double sill_m = 1.0;    ///< height of the opening's lower border above the ground [m]
-  double frame_width_m =
-      0.07;  ///< visible width of the frame around the opening; 0: a bare hole in the wall [m]
-  double frame_depth_m =
-      0.02;  ///< how far the frame protrudes from the wall, at least 2 mm; ignored without a frame [m]
-  ColourParams frame{225, 95, 20};     ///< colour of the frame
+  bool present = true;              ///< false: solid wall in place of the window
+  double width_m = 1.2;             ///< inner width of the opening [m]
+  double height_m = 1.0;            ///< inner height of the opening [m]
+  double sill_m = 1.0;              ///< height of the opening's lower border above the ground [m]
+  double frame_width_m = 0.07;      ///< visible width of the frame; 0: a bare hole in the wall [m]
+  double frame_depth_m = 0.02;      ///< protrusion of the frame, at least 2 mm; ignored without a frame [m]
+  ColourParams frame{225, 95, 20};  ///< colour of the frame
   ColourParams reveal{205, 200, 190};  ///< colour of the opening's inner faces
-  std::string surround =
-      "none";  ///< surround of the frame: a board below, folded shutters at both sides, or a beam above
+  std::string surround = "none";   ///< board below, folded shutters at both sides, or beam above the frame
   std::string closed_by = "none";  ///< what closes it (solid; `T_odom_window` stays valid); none: open
   double dirt = 0.0;               ///< part of the window's glass that is covered by dirt; 0: clean
   std::string bars = "none";       ///< bars in front of a closed window
@@ -84,8 +81,7 @@ struct DecoyParams {
                  {"none", "glass", "tinted_glass", "curtain", "blinds", "shutter", "board"});
     field.choice("bars", self.bars, {"none", "vertical", "cross"});
   }
-  bool isOpen() const { return closed_by == "none"; }
-  bool showsRoom() const { return isOpen() || closed_by == "glass"; }
+  bool showsRoom() const { return closed_by == "none" || closed_by == "glass"; }
 };
 
 /// A closed door in the front wall.
@@ -176,8 +172,7 @@ struct HouseParams {
   double width_m = 11.0;                 ///< width of the front wall, centred on the target [m]
   double eaves_m = 3.1;                  ///< height of the front wall [m]
   double room_depth_m = 5.0;             ///< free depth behind the wall [m]
-  double room_light =
-      0.38;  ///< brightness of the room relative to full daylight; its back wall gets 1.149 times this
+  double room_light = 0.38;  ///< brightness relative to full daylight; the back wall gets 1.149 times this
   std::string room_texture = "plaster";  ///< material of the room's walls
   ColourParams room{205, 200, 180};      ///< colour of the room's walls
   std::string furniture = "some";        ///< furniture in the room, all of it out of the way

@@ -18,10 +18,8 @@ struct QuadrotorParams {
   double attitude_gain_error = 0.0;  ///< relative error of the attitude loop's gain
   double velocity_gain = 1.0;        ///< reached velocity per commanded velocity
   double yaw_rate_gain = 1.0;        ///< reached yaw rate per commanded yaw rate
-  double setpoint_acceleration_mps2 =
-      0.0;  ///< largest rate of change of the velocity setpoint; 0: unlimited [m/s^2]
-  double setpoint_time_constant_sec =
-      0.0;                          ///< time constant at the end of a setpoint change; 0: straight ramp [s]
+  double setpoint_acceleration_mps2 = 0.0;  ///< limit on the setpoint's rate of change; 0: none [m/s^2]
+  double setpoint_time_constant_sec = 0.0;  ///< time constant at the end of a change; 0: straight ramp [s]
   double setpoint_jerk_mps3 = 0.0;  ///< limit on the change of the setpoint's acceleration; 0: none [m/s^3]
   double acceleration_feed_forward = 0.0;    ///< share of the setpoint's acceleration that is fed forward
   double position_hold_per_sec = 0.0;        ///< pull to where the setpoints would have led; 0: none [1/s]

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "simulation/scenario/fault_params.hpp"
 #include "simulation/scene/obstacle_collision.hpp"
 #include "simulation/scene/scene_parts.hpp"
 #include "window_ingress/geometry/frames.hpp"

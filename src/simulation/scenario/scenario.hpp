@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scenario/fault_params.hpp"
 #include "simulation/scenario/house_params.hpp"
 #include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
@@ -46,8 +45,7 @@ struct StartParams {
 struct Scenario {
   double time_limit_sec = 60.0;  ///< time limit of the flight [s]
   std::string glass = "as_set";  ///< `commit/glass` of the navigator in `fly`; as_set: not changed
-  std::string unverified_opening =
-      "as_set";                ///< `commit/unverified_opening` of the navigator in `fly`; as_set: not changed
+  std::string unverified_opening = "as_set";  ///< `commit/unverified_opening` in `fly`; as_set: not changed
   bool target_chosen = false;  ///< the operator selects the target once it is seen, and then starts
   StartParams start;
   WindowParams window;
@@ -84,15 +82,24 @@ struct Scenario {
   }
 
   geometry::OpeningSize opening() const { return {window.width_m, window.height_m}; }
-  double windowCentreHeight() const {
-    return window.sill_m + 0.5 * window.height_m;
-  }                                             ///< above the ground [m]
+  /// Above the ground [m].
+  double windowCentreHeight() const { return window.sill_m + 0.5 * window.height_m; }
   Eigen::Isometry3d startPoseInWindow() const;  ///< T_window_base
   Eigen::Isometry3d startPoseInOdom() const;    ///< T_odom_base; z = 0 is the ground
   Eigen::Isometry3d T_odom_window() const;      ///< for a house at its resting place
   /// Moves start and house so that the start lies at the vehicle's place, except for its height.
   void startAt(const Eigen::Isometry3d& T_odom_base);
 };
+
+/// Makes vehicle and odometry respond as with a real autopilot: sets the known values of the profile and
+/// leaves the others.
+///
+/// `arducopter_4_0`, `arducopter_4_3`: ArduCopter 4.0.7 and 4.3.2 in software-in-the-loop behind MAVROS.
+/// `arducopter_4_0_default`: ArduCopter 4.0.7 with its default acceleration and its gyro's drift.
+/// `px4_1_13_gps`: PX4 1.13 with GPS. `crisp`: a simulator's controller (so3) that responds in a fifth of a
+/// second. `slow`: the default vehicle with at most 0.6 m/s^2. `default`, `external` and unknown profiles
+/// change only the name. Comparison with measurements: test `vehicle_profiles_test.cpp` and doc/scenarios.md.
+void applyProfile(const std::string& profile, QuadrotorParams& vehicle, OdometryParams& odometry);
 
 /// All faults of the scenario, one text each: values out of range, inconsistent parts.
 std::vector<std::string> faultsOf(const Scenario& scenario);

@@ -6,7 +6,6 @@
 #include "parameters/yaml_nodes.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
-#include "simulation/scenario/vehicle_profiles.hpp"
 #include "window_ingress/parameters/unknown_key.hpp"
 
 namespace window_ingress::simulation {

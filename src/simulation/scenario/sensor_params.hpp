@@ -1,4 +1,5 @@
-/// Parameters of camera, odometry and IMU; see `Scenario`.
+/// Parameters of camera, odometry and IMU, and of faults; see `Scenario`. doc/scenarios.md has the table of
+/// the effect of each kind of fault on each unit.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -94,20 +95,17 @@ struct CameraParams {
 
 /// Errors of the vehicle's odometry.
 struct OdometryParams {
-  double rate_hz = 50.0;      ///< samples per second [1/s]
-  double latency_sec = 0.03;  ///< from measurement to delivery [s]
-  double jitter_sec = 0.0;    ///< largest additional delay of a sample, evenly distributed [s]
-  double burst_period_sec =
-      0.0;  ///< samples are collected and delivered together at multiples of this; 0: at once [s]
+  double rate_hz = 50.0;             ///< samples per second [1/s]
+  double latency_sec = 0.03;         ///< from measurement to delivery [s]
+  double jitter_sec = 0.0;           ///< largest additional delay of a sample, evenly distributed [s]
+  double burst_period_sec = 0.0;     ///< samples are delivered together at multiples of this; 0: at once [s]
   double stamp_offset_sec = 0.0;     ///< error of the stamp; positive: after the time of measurement [s]
   double estimate_delay_sec = 0.01;  ///< age of the velocity in the vehicle's own velocity loop [s]
   double position_noise_m = 0.004;   ///< white noise of the position, standard deviation per axis [m]
   double velocity_noise_mps = 0.02;  ///< white noise of the velocity, standard deviation per axis [m/s]
-  double velocity_bias_mps =
-      0.0;  ///< steady horizontal velocity error, fixed in the body; random direction [m/s]
+  double velocity_bias_mps = 0.0;    ///< steady horizontal velocity error in the body, random direction [m/s]
   double velocity_bias_spread_mps = 0.0;  ///< half range of the random size of velocity_bias_mps [m/s]
-  double velocity_wander_mps =
-      0.0;  ///< slowly varying velocity error, standard deviation per horizontal axis [m/s]
+  double velocity_wander_mps = 0.0;  ///< slow velocity error, standard deviation per horizontal axis [m/s]
   double velocity_wander_correlation_sec = 3.5;  ///< correlation time of velocity_wander_mps [s]
   double own_bias_part = 0.0;         ///< share of the velocity errors in the vehicle's own velocity loop
   double attitude_noise_rad = 0.004;  ///< white noise of the attitude, standard deviation per axis [rad]
@@ -119,12 +117,9 @@ struct OdometryParams {
   double drift_m_per_sqrt_sec = 0.01;   ///< random walk of the position per horizontal axis [m/sqrt(s)]
   double height_drift_m_per_sqrt_sec = 0.004;  ///< random walk of the height [m/sqrt(s)]
   double yaw_drift_rad_per_sqrt_sec = 0.0015;  ///< random walk of the heading [rad/sqrt(s)]
-  double height_factor_per_m =
-      0.0;  ///< relative growth of horizontal noise and drift per metre above ground [1/m]
-  double texture_quality =
-      1.0;  ///< texture of the ground: divides horizontal noise and drift; at least 0.05 counts
-  std::string twist_frame =
-      "body";  ///< axes of the velocity in odometry messages: body, or world for those of odom
+  double height_factor_per_m = 0.0;  ///< growth of horizontal noise and drift per metre above ground [1/m]
+  double texture_quality = 1.0;  ///< of the ground; divides horizontal noise and drift; at least 0.05 counts
+  std::string twist_frame = "body";  ///< axes of the reported velocity; world: those of odom
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 5.0, 400.0);
@@ -180,5 +175,48 @@ struct ImuParams {
     field("accelerometer_noise_mps2", self.accelerometer_noise_mps2, 0.0, 10.0);
   }
 };
+
+/// One temporary fault of the world.
+struct FaultParams {
+  std::string unit = "image";  ///< part of the world with the fault
+  std::string kind = "off";    ///< what the fault does to the unit
+  double at_sec = 5.0;         ///< start of the fault, in the world's time [s]
+  double duration_sec = 2.0;   ///< duration of the fault [s]
+  double rate_hz = 1.0;        ///< slow: remaining samples per second [1/s]
+  double delay_sec = 1.0;      ///< delayed: additional delay of every sample [s]
+  double off_sec = 0.5;        ///< intermittent: length of each gap; a gap comes first [s]
+  double on_sec = 0.5;         ///< intermittent: length of normal operation after each gap [s]
+  double jump_m = 4.0;         ///< wrong odom, tf: error of the position along the frame's x [m]
+  double slide_mps = 0.5;  ///< slide: speed of the position's drift, of which the velocity shows none [m/s]
+  double direction_rad = 0.0;   ///< slide: direction of the drift, from the frame's x towards its y [rad]
+  double turn_rad = 1.5707963;  ///< wrong odom, tf: error of the heading [rad]
+  double tilt_rad = 0.5;        ///< wrong imu: error of the attitude, in roll [rad]
+  double zoom = 1.3;            ///< wrong camera_info: factor on the focal lengths
+  double back_sec = 5.0;        ///< wrong clock: delay of the clock [s]
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field.choice("unit", self.unit, {"image", "camera_info", "odom", "imu", "tf", "clock", "cmd_vel"});
+    field.choice("kind", self.kind,
+                 {"off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "slide"});
+    field("at_sec", self.at_sec, 0.0, 3600.0);
+    field("duration_sec", self.duration_sec, 0.01, 3600.0);
+    field("rate_hz", self.rate_hz, 0.1, 100.0);
+    field("delay_sec", self.delay_sec, 0.01, 10.0);
+    field("off_sec", self.off_sec, 0.01, 60.0);
+    field("on_sec", self.on_sec, 0.01, 60.0);
+    field("jump_m", self.jump_m, -100.0, 100.0);
+    field("slide_mps", self.slide_mps, 0.0, 50.0);
+    field("direction_rad", self.direction_rad, -3.15, 3.15);
+    field("turn_rad", self.turn_rad, -3.15, 3.15);
+    field("tilt_rad", self.tilt_rad, -3.15, 3.15);
+    field("zoom", self.zoom, 0.1, 10.0);
+    field("back_sec", self.back_sec, 0.01, 100.0);
+  }
+};
+
+/// Why this fault is impossible: the kind has no useful effect on the unit. Empty if it is possible.
+std::string whyNoSuchFault(const FaultParams& fault);
+/// As above, for an external vehicle, whose data does not come from this world.
+std::string whyNotBesideExternalVehicle(const FaultParams& fault);
 
 }  // namespace window_ingress::simulation

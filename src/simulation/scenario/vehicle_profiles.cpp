@@ -1,4 +1,4 @@
-#include "simulation/scenario/vehicle_profiles.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -79,9 +79,6 @@ void setPx4Gps(QuadrotorParams& vehicle, OdometryParams& odometry) {
   odometry.jitter_sec = 0.07;
 }
 
-// The vehicle takes 2 s to reach 1.2 m/s, whatever the autopilot.
-void setSlow(QuadrotorParams& vehicle) { vehicle.setpoint_acceleration_mps2 = 0.6; }
-
 void setCrisp(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.acceleration_feed_forward = 0.03;
   vehicle.position_hold_per_sec = 0.34;
@@ -111,7 +108,7 @@ void applyProfile(const std::string& profile, QuadrotorParams& vehicle, Odometry
   if (profile == "arducopter_4_3") setArduCopter43(vehicle, odometry);
   if (profile == "crisp") setCrisp(vehicle, odometry);
   if (profile == "px4_1_13_gps") setPx4Gps(vehicle, odometry);
-  if (profile == "slow") setSlow(vehicle);
+  if (profile == "slow") vehicle.setpoint_acceleration_mps2 = 0.6;
 }
 
 }  // namespace window_ingress::simulation

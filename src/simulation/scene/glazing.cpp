@@ -100,17 +100,16 @@ cv::Rect Glazing::partIn(const Eigen::Isometry3d& T_camera_window) const {
   return part;
 }
 
-Eigen::Isometry3d Glazing::mirrored(const Eigen::Isometry3d& T_camera_window) const {
-  return T_camera_window * mirrorAt(panes_.front().x_m);
-}
-
-void Glazing::beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_mirrored) const {
+Eigen::Isometry3d Glazing::beginMirror(const GlFunctions& gl,
+                                       const Eigen::Isometry3d& T_camera_window) const {
+  const Eigen::Isometry3d T_camera_mirrored = T_camera_window * mirrorAt(panes_.front().x_m);
   const double before_panes[] = {-1.0, 0.0, 0.0, panes_.front().x_m};
   gl.BindFramebuffer(GL_FRAMEBUFFER, mirror_);
   gl.LoadMatrixd(T_camera_mirrored.matrix().data());
   gl.ClipPlane(GL_CLIP_PLANE0, before_panes);
   gl.Enable(GL_CLIP_PLANE0);
   gl.FrontFace(GL_CCW);
+  return T_camera_mirrored;
 }
 
 void Glazing::endMirror(const GlFunctions& gl) const {
@@ -126,10 +125,7 @@ void Glazing::addPane(const Pane& pane, const Eigen::Matrix4d& texture_from_wind
       const Eigen::Vector3d p = pointOn(pane, across, up), sight = p - eye;
       const Eigen::Vector4f at = (texture_from_window * p.homogeneous()).cast<float>();
       const auto part = static_cast<float>(paneReflectance(sight.x() / sight.norm()));
-      const Eigen::Vector3f position = p.cast<float>();
-      points_.push_back({{position.x(), position.y(), position.z()},
-                         {at.x(), at.y(), at.z(), at.w()},
-                         {1.0F, 1.0F, 1.0F, part}});
+      points_.push_back({p.cast<float>(), at, {1.0F, 1.0F, 1.0F, part}});
     }
   for (GLuint row = 0; row < kCells; ++row)
     for (GLuint column = 0; column < kCells; ++column) {

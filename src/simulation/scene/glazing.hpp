@@ -1,11 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "simulation/rendering/gl_functions.hpp"
+#include "simulation/rendering/gl_context.hpp"
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -27,10 +26,10 @@ class Glazing {
 
   /// Part of the image in which panes may be visible; from inside the room they are invisible.
   cv::Rect partIn(const Eigen::Isometry3d& T_camera_window) const;
-  Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) const;
 
   /// Draws between these two calls go to the reflection, which contains only objects in front of the panes.
-  void beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_mirrored) const;
+  /// \return the mirrored scene's pose in the camera
+  Eigen::Isometry3d beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window) const;
   void endMirror(const GlFunctions& gl) const;
   /// Draws the panes over the image. Keeps the alpha channel, but changes OpenGL's array pointers.
   void draw(const GlFunctions& gl, const Eigen::Matrix4d& projection,
@@ -38,9 +37,9 @@ class Glazing {
 
  private:
   struct Point {
-    std::array<float, 3> position;  // window frame [m]
-    std::array<float, 4> mirrored;  // texture coordinates, homogeneous
-    std::array<float, 4> colour;    // white; alpha: reflectance
+    Eigen::Vector3f position;  // window frame [m]
+    Eigen::Vector4f mirrored;  // texture coordinates, homogeneous
+    Eigen::Vector4f colour;    // white; alpha: reflectance
   };
   void addPane(const Pane& pane, const Eigen::Matrix4d& texture_from_window, const Eigen::Vector3d& eye);
 

@@ -1,7 +1,6 @@
 #include "simulation/scene/scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "simulation/scene/scene_parts.hpp"
 
@@ -9,12 +8,6 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kRoomHalfWidth_m = 2.6, kRoomHeight_m = 2.6, kSideWall_m = 0.2;
-
-bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
-  const double beside_m = 0.5 * (poster.width_m + scenario.window.width_m) + scenario.window.frame_width_m;
-  const double above_m = 0.5 * (poster.height_m + scenario.window.height_m) + scenario.window.frame_width_m;
-  return std::abs(poster.y_m) < beside_m && std::abs(poster.z_m) < above_m;
-}
 
 constexpr double kDecoyFrameDepth_m = 0.02;
 constexpr double kPlinthHeight_m = 0.3, kPlinthDepth_m = 0.01;
@@ -152,19 +145,6 @@ Scene buildScene(const Scenario& scenario) {
   addSky(scenario, scene);
   addRoom(scenario, scene);
   return scene;
-}
-
-Scenario asPhotographed(const Scenario& scenario) {
-  Scenario expected = scenario;
-  expected.window.present = true;
-  expected.window.closed_by = "none";
-  expected.window.dirt = 0.0;
-  expected.house.daylight.fog_m = 0.0;
-  auto& posters = expected.posters;
-  posters.erase(std::remove_if(posters.begin(), posters.end(),
-                               [&](const PosterParams& poster) { return reachesInto(poster, scenario); }),
-                posters.end());
-  return expected;
 }
 
 }  // namespace window_ingress::simulation

@@ -42,7 +42,4 @@ struct Scene {
 
 Scene buildScene(const Scenario& scenario);
 
-/// The world as the operator photographed the target: present, open, not covered, in clear air.
-Scenario asPhotographed(const Scenario& scenario);
-
 }  // namespace window_ingress::simulation

@@ -82,7 +82,7 @@ void addClosure(const Fitting& fitting, double pane_m, Scene& scene) {
 // The strips of wall in the shadow of a frame.
 void addFrameShadow(const Scenario& scenario, const Rectangle& outer, double front_m, Mesh& mesh) {
   constexpr double kBefore_m = 0.0008, kMax_m = 0.12;
-  const Lighting light = mesh.lighting();
+  const Lighting& light = mesh.lighting();
   const Vector3d sun = light.towards_sun;
   const double wall_m = scenario.window.wallFront(), depth_m = wall_m - front_m;
   if (light.sun <= 0.0 || sun.x() > -0.1 || depth_m < 0.01) return;
@@ -98,32 +98,29 @@ void addFrameShadow(const Scenario& scenario, const Rectangle& outer, double fro
     if (along.cross(slide).x() < 0.0) std::reverse(polygon.begin(), polygon.end());
     mesh.addPolygon(polygon, surface);
   };
-  mesh.setLighting(light.inShadow());
+  const LitBy shadow(light.inShadow(), mesh);
   const double side_m = slide.y() > 0.0 ? outer.left_m : outer.right_m;
   strip({x_m, side_m, outer.bottom_m}, {0, 0, outer.top_m - outer.bottom_m});
   strip({x_m, outer.right_m, outer.bottom_m}, {0, outer.left_m - outer.right_m, 0});
-  mesh.setLighting(light);
 }
 
 void addSurround(const Scenario& scenario, const Fitting& fitting, const Rectangle& outer, Scene& scene) {
   const double wall_m = scenario.window.wallFront();
   const Surface stone = painted({188, 184, 176}, Texture::kPlaster);
+  const auto add = [&](const std::string& name, double depth_m, const Rectangle& face,
+                       const Surface& surface) {
+    addSolid(scene, name, box(wall_m - depth_m, wall_m, face), surface);
+  };
   if (fitting.surround == "sill")
-    addSolid(scene, "sill",
-             box(wall_m - 0.09, wall_m,
-                 {outer.right_m - 0.06, outer.left_m + 0.06, outer.bottom_m - 0.05, outer.bottom_m}),
-             stone);
+    add("sill", 0.09, {outer.right_m - 0.06, outer.left_m + 0.06, outer.bottom_m - 0.05, outer.bottom_m},
+        stone);
   if (fitting.surround == "lintel")
-    addSolid(scene, "lintel",
-             box(wall_m - 0.03, wall_m,
-                 {outer.right_m - 0.12, outer.left_m + 0.12, outer.top_m, outer.top_m + 0.16}),
-             stone);
+    add("lintel", 0.03, {outer.right_m - 0.12, outer.left_m + 0.12, outer.top_m, outer.top_m + 0.16}, stone);
   if (fitting.surround != "shutters") return;
   const double wide_m = 0.5 * (outer.left_m - outer.right_m);
   const Surface leaf = painted({84, 112, 96}, Texture::kLouvres);
   for (const double right_m : {outer.right_m - 0.02 - wide_m, outer.left_m + 0.02})
-    addSolid(scene, "shutter",
-             box(wall_m - 0.04, wall_m, {right_m, right_m + wide_m, outer.bottom_m, outer.top_m}), leaf);
+    add("shutter", 0.04, {right_m, right_m + wide_m, outer.bottom_m, outer.top_m}, leaf);
 }
 
 }  // namespace
@@ -133,7 +130,6 @@ void addFitting(const Scenario& scenario, const Fitting& fitting, Scene& scene) 
   const bool framed = fitting.frame_width_m > 0.0, closed = fitting.closed_by != "none";
   const double front_m = framed ? fitting.frame_front_m : wall_m;
   const Rectangle outer = fitting.opening.grown(fitting.frame_width_m);
-  const Lighting light = scene.mesh.lighting();
   if (framed) {
     addFrame(scene.mesh, fitting.opening, fitting.frame_width_m, front_m, wall_m, fitting.frame);
     addSolidWall(scene.obstacles, fitting.frame_name, outer, {fitting.opening}, front_m, wall_m);
@@ -141,10 +137,11 @@ void addFitting(const Scenario& scenario, const Fitting& fitting, Scene& scene) 
   }
   const double pane_m = closed ? paneFront(scenario, fitting.closed_by) : scene.opening_depth_m;
   const double end_m = fitting.closed_by == "glass" ? scene.opening_depth_m : pane_m;
-  scene.mesh.setLighting(revealLight(scenario, fitting.opening, front_m));
-  addReveal(scene.mesh, fitting.opening, front_m, end_m, fitting.reveal);
-  if (closed) addClosure(fitting, pane_m, scene);
-  scene.mesh.setLighting(light);
+  {
+    const LitBy light(revealLight(scenario, fitting.opening, front_m), scene.mesh);
+    addReveal(scene.mesh, fitting.opening, front_m, end_m, fitting.reveal);
+    if (closed) addClosure(fitting, pane_m, scene);
+  }
   addSurround(scenario, fitting, outer, scene);
 }
 
@@ -152,10 +149,9 @@ void addDoor(const Scenario& scenario, const DoorParams& door, Scene& scene) {
   const Rectangle opening = openingOf(scenario, door);
   const double wall_m = scenario.window.wallFront(), leaf_m = wall_m + 0.05, front_m = wall_m - 0.02;
   const Surface frame = painted(door.frame), leaf = painted(door.leaf);
-  const Lighting light = scene.mesh.lighting();
   addFrame(scene.mesh, opening, door.frame_width_m, front_m, wall_m, frame);
   addFrameShadow(scenario, opening.grown(door.frame_width_m), front_m, scene.mesh);
-  scene.mesh.setLighting(revealLight(scenario, opening, front_m));
+  const LitBy light(revealLight(scenario, opening, front_m), scene.mesh);
   addReveal(scene.mesh, opening, front_m, leaf_m, frame);
   addWallFace(scene.mesh, leaf_m, true, opening, {}, leaf, opening.top_m);
   const double bottom_m = opening.bottom_m, middle_m = bottom_m + 0.5 * door.height_m, inset_m = 0.14;
@@ -167,7 +163,6 @@ void addDoor(const Scenario& scenario, const DoorParams& door, Scene& scene) {
   scene.mesh.addBox(box(leaf_m - 0.06, leaf_m - 0.03,
                         {opening.right_m + 0.05, opening.right_m + 0.17, middle_m - 0.02, middle_m + 0.01}),
                     painted({205, 205, 210}));
-  scene.mesh.setLighting(light);
   scene.obstacles.push_back({"door", box(front_m, wall_m, opening.grown(door.frame_width_m))});
 }
 

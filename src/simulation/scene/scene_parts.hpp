@@ -21,6 +21,9 @@ struct Rectangle {
   bool contains(double y_m, double z_m) const {
     return y_m > right_m && y_m < left_m && z_m > bottom_m && z_m < top_m;
   }
+  Eigen::Vector3d across() const { return {0, left_m - right_m, 0}; }
+  Eigen::Vector3d up() const { return {0, 0, top_m - bottom_m}; }
+  Eigen::Vector3d corner(double x_m) const { return {x_m, right_m, bottom_m}; }  ///< the lower right one
 };
 
 /// A window in the front wall, the target or another one.
@@ -37,6 +40,8 @@ Surface painted(const ColourParams& colour, Texture texture = Texture::kPlain);
 /// The texture for a wall, by its name in a scenario.
 Texture wallTexture(const std::string& name);
 Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face);
+/// A box with a square section around `x_m`, `y_m`.
+Eigen::AlignedBox3d pillar(double x_m, double y_m, double half_m, double bottom_m, double top_m);
 
 // --- light (scene_light.cpp)
 Lighting daylight(const Scenario& scenario);

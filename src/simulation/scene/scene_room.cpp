@@ -47,9 +47,8 @@ void addTable(const Shell& room, Scene& scene) {
       addSolid(scene, "table", box(x, x + 0.06, {y, y + 0.06, level_m, top_m - 0.04}), beech);
   const Surface vase = painted({70, 110, 140}), leaves = painted({120, 150, 90}, Texture::kHedge);
   const double y_m = 0.5 * (right_m + left_m), x_m = 0.5 * (x0 + x1);
-  addSolid(scene, "vase", box(x_m - 0.06, x_m + 0.06, {y_m - 0.06, y_m + 0.06, top_m, top_m + 0.2}), vase);
-  addSolid(scene, "vase", box(x_m - 0.13, x_m + 0.13, {y_m - 0.13, y_m + 0.13, top_m + 0.2, top_m + 0.42}),
-           leaves);
+  addSolid(scene, "vase", pillar(x_m, y_m, 0.06, top_m, top_m + 0.2), vase);
+  addSolid(scene, "vase", pillar(x_m, y_m, 0.13, top_m + 0.2, top_m + 0.42), leaves);
 }
 
 void addBooks(const Shell& room, Scene& scene) {
@@ -73,17 +72,15 @@ void addRugAndLamp(const Shell& room, Scene& scene) {
                      painted({150, 120, 105}, Texture::kPlaster));
   const double x_m = room.back_m - 0.35, y_m = room.walls.left_m - 1.25;
   const Surface metal = painted({90, 90, 95}), shade = painted({245, 232, 200});
-  addSolid(scene, "lamp", box(x_m - 0.02, x_m + 0.02, {y_m - 0.02, y_m + 0.02, level_m, level_m + 1.4}),
-           metal);
-  addSolid(scene, "lamp",
-           box(x_m - 0.17, x_m + 0.17, {y_m - 0.17, y_m + 0.17, level_m + 1.4, level_m + 1.68}), shade);
+  addSolid(scene, "lamp", pillar(x_m, y_m, 0.02, level_m, level_m + 1.4), metal);
+  addSolid(scene, "lamp", pillar(x_m, y_m, 0.17, level_m + 1.4, level_m + 1.68), shade);
 }
 
 void addShell(Mesh& mesh, const Shell& shell, const std::vector<Rectangle>& holes, const Surface& paper,
               const Surface& ceiling, const Surface& floor) {
   const Rectangle& room = shell.walls;
-  const Vector3d deep(shell.back_m - shell.front_m, 0, 0), across(0, room.left_m - room.right_m, 0);
-  const Vector3d up(0, 0, room.top_m - room.bottom_m), corner(shell.front_m, room.right_m, room.bottom_m);
+  const Vector3d corner = room.corner(shell.front_m), deep(shell.back_m - shell.front_m, 0, 0);
+  const Vector3d across = room.across(), up = room.up();
   const double no_shadow_m = room.top_m + 1;
   addWallFace(mesh, shell.front_m, false, room, holes, paper, no_shadow_m);
   addWallFace(mesh, shell.back_m, true, room, {}, paper, no_shadow_m);
@@ -96,12 +93,10 @@ void addShell(Mesh& mesh, const Shell& shell, const std::vector<Rectangle>& hole
 // A second shell behind the first, so that nothing shines through where the sun's border cuts the first.
 void addBacking(Mesh& mesh, const Shell& shell, const Surface& paper) {
   constexpr double kBehind_m = 0.01;
-  const Lighting light = mesh.lighting();
-  Shell behind{shell.walls.grown(kBehind_m), shell.front_m, shell.back_m + kBehind_m};
+  const Shell behind{shell.walls.grown(kBehind_m), shell.front_m, shell.back_m + kBehind_m};
   const Surface plain{Texture::kPlain, 0.8 * paper.colour};
-  mesh.setLighting(light.inShadow());
+  const LitBy shadow(mesh.lighting().inShadow(), mesh);
   addShell(mesh, behind, {behind.walls}, plain, plain, plain);
-  mesh.setLighting(light);
 }
 
 void addRoomShell(const Scenario& scenario, Scene& scene) {
@@ -118,13 +113,11 @@ void addBackWindow(const Scenario& scenario, Scene& scene) {
   const Rectangle opening = backWindow(scenario);
   const Surface white = painted({236, 236, 232});
   addFrame(scene.mesh, opening, 0.06, back_m - 0.03, back_m, white);
-  const Lighting light = scene.mesh.lighting();
-  scene.mesh.setLighting(skyLight(scenario));
-  addPane(scene.mesh, back_m - 0.005, opening, painted({255, 255, 255}, Texture::kView));
-  scene.mesh.setLighting(light);
   const double y_m = 0.5 * (opening.right_m + opening.left_m);
   scene.mesh.addBox(box(back_m - 0.025, back_m, {y_m - 0.025, y_m + 0.025, opening.bottom_m, opening.top_m}),
                     white);
+  const LitBy sky(skyLight(scenario), scene.mesh);
+  addPane(scene.mesh, back_m - 0.005, opening, painted({255, 255, 255}, Texture::kView));
 }
 
 void addRoomSolids(const Scenario& scenario, Scene& scene) {
@@ -144,9 +137,8 @@ void addGables(const Scenario& scenario, Scene& scene) {
   const double front_m = scenario.window.wallFront();
   const Surface plaster = painted(scenario.house.wall, Texture::kPlaster);
   const Vector3d deep(scene.opening_depth_m + scenario.house.room_depth_m - front_m, 0, 0);
-  const Vector3d up(0, 0, wall.top_m - wall.bottom_m);
-  scene.mesh.addQuad({front_m, wall.right_m, wall.bottom_m}, deep, up, plaster);
-  scene.mesh.addQuad({front_m, wall.left_m, wall.bottom_m}, up, deep, plaster);
+  scene.mesh.addQuad(wall.corner(front_m), deep, wall.up(), plaster);
+  scene.mesh.addQuad({front_m, wall.left_m, wall.bottom_m}, wall.up(), deep, plaster);
 }
 
 void addFurniture(const Scenario& scenario, Scene& scene) {
@@ -167,14 +159,12 @@ void addRoom(const Scenario& scenario, Scene& scene) {
   const auto clear = clearHoles(scenario);
   if (clear.empty()) return;
   scene.other_clear_holes = clear.size() > 1 || !scenario.window.showsRoom();
-  const Lighting outdoors = scene.mesh.lighting();
-  scene.mesh.setLighting(roomLight(scenario));
+  const LitBy light(roomLight(scenario), scene.mesh);
   scene.mesh.setIndoors(true);
   addRoomShell(scenario, scene);
   if (scenario.house.back_window) addBackWindow(scenario, scene);
   if (scenario.house.furniture != "none") addFurniture(scenario, scene);
   scene.mesh.setIndoors(false);
-  scene.mesh.setLighting(outdoors);
 }
 
 }  // namespace window_ingress::simulation

@@ -24,12 +24,10 @@ void addTree(Scene& scene, double x_m, double y_m, double size_m) {
   const double ground_m = scene.ground_z_m;
   const Surface bark = painted({110, 85, 65}, Texture::kWood),
                 leaves = painted({150, 170, 140}, Texture::kHedge);
-  addSolid(scene, "tree", box(x_m - 0.15, x_m + 0.15, {y_m - 0.15, y_m + 0.15, ground_m, ground_m + size_m}),
-           bark);
+  addSolid(scene, "tree", pillar(x_m, y_m, 0.15, ground_m, ground_m + size_m), bark);
   for (int tier = 0; tier < 3; ++tier) {
     const double half_m = size_m * (0.55 - 0.13 * tier), low_m = ground_m + size_m * (0.55 + 0.35 * tier);
-    const Rectangle crown{y_m - half_m, y_m + half_m, low_m, low_m + 0.4 * size_m};
-    scene.mesh.addBox(box(x_m - half_m, x_m + half_m, crown), leaves);
+    scene.mesh.addBox(pillar(x_m, y_m, half_m, low_m, low_m + 0.4 * size_m), leaves);
   }
 }
 
@@ -48,9 +46,8 @@ void addRoof(const Scenario& scenario, Scene& scene) {
   scene.mesh.addQuad(edge, across, ridge - edge, tiles);
   const Eigen::Vector3d back(depth_m + kOverhang_m, -side_m, low_m);
   scene.mesh.addQuad(back, -across, ridge + across - back, tiles);
-  const Eigen::AlignedBox3d gutter(Eigen::Vector3d(-kOverhang_m - 0.08, -side_m, low_m - 0.12),
-                                   Eigen::Vector3d(-kOverhang_m + 0.03, side_m, low_m + 0.03));
-  scene.mesh.addBox(gutter, painted({222, 222, 218}));
+  const Rectangle gutter{-side_m, side_m, low_m - 0.12, low_m + 0.03};
+  scene.mesh.addBox(box(-kOverhang_m - 0.08, -kOverhang_m + 0.03, gutter), painted({222, 222, 218}));
   const Rectangle soffit{-side_m, side_m, low_m - 0.06, low_m};
   scene.mesh.addBox(box(-kOverhang_m, scenario.window.wallFront(), soffit),
                     painted({175, 140, 100}, Texture::kWood));
@@ -77,8 +74,7 @@ void addGarden(Scene& scene) {
 
 // Clouds on a plane overhead, haze around the horizon: no corners that a detector could find.
 void addSky(const Scenario& scenario, Scene& scene) {
-  const Lighting outdoors = scene.mesh.lighting();
-  scene.mesh.setLighting(skyLight(scenario));
+  const LitBy light(skyLight(scenario), scene.mesh);
   constexpr int kSides = 24;
   const double far_m = 450.0, low_m = scene.ground_z_m - 30.0, high_m = 45.0;
   const auto ring = [&](int i, double radius_m, double z_m) {
@@ -91,7 +87,6 @@ void addSky(const Scenario& scenario, Scene& scene) {
     scene.mesh.addQuad(b, a - b, up, haze);
   }
   scene.mesh.addQuad({-far_m, -far_m, high_m}, {0, 2 * far_m, 0}, {2 * far_m, 0, 0}, air);
-  scene.mesh.setLighting(outdoors);
 }
 
 }  // namespace window_ingress::simulation

@@ -22,6 +22,10 @@ Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face) {
   return {Eigen::Vector3d(x0, face.right_m, face.bottom_m), Eigen::Vector3d(x1, face.left_m, face.top_m)};
 }
 
+Eigen::AlignedBox3d pillar(double x_m, double y_m, double half_m, double bottom_m, double top_m) {
+  return box(x_m - half_m, x_m + half_m, {y_m - half_m, y_m + half_m, bottom_m, top_m});
+}
+
 namespace {
 
 std::vector<double> cuts(double low, double high, std::vector<double> at) {
@@ -34,12 +38,11 @@ std::vector<double> cuts(double low, double high, std::vector<double> at) {
 }
 
 void addCell(Mesh& mesh, double x_m, bool outside, const Rectangle& cell, const Surface& surface) {
-  const Eigen::Vector3d across(0, cell.left_m - cell.right_m, 0), up(0, 0, cell.top_m - cell.bottom_m);
-  const Eigen::Vector3d right(x_m, cell.right_m, cell.bottom_m), left = right + across;
+  const Eigen::Vector3d corner = cell.corner(x_m), across = cell.across();
   if (outside)
-    mesh.addQuad(left, -across, up, surface, {-cell.left_m, cell.bottom_m});
+    mesh.addQuad(corner + across, -across, cell.up(), surface, {-cell.left_m, cell.bottom_m});
   else
-    mesh.addQuad(right, across, up, surface, {cell.right_m, cell.bottom_m});
+    mesh.addQuad(corner, across, cell.up(), surface, {cell.right_m, cell.bottom_m});
 }
 
 }  // namespace
@@ -59,19 +62,17 @@ void addWallFace(Mesh& mesh, double x_m, bool outside, const Rectangle& wall,
       const double y_m = 0.5 * (y[i] + y[i + 1]), z_m = 0.5 * (z[j] + z[j + 1]);
       const auto covers = [&](const Rectangle& hole) { return hole.contains(y_m, z_m); };
       if (std::any_of(holes.begin(), holes.end(), covers)) continue;
-      mesh.setLighting(z_m > shadow_z_m ? light.inShadow() : light);
+      const LitBy lit(z_m > shadow_z_m ? light.inShadow() : light, mesh);
       addCell(mesh, x_m, outside, {y[i], y[i + 1], z[j], z[j + 1]}, surface);
     }
-  mesh.setLighting(light);
 }
 
 void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, double x1,
               const Surface& surface) {
   const Rectangle outer = opening.grown(width_m);
   addWallFace(mesh, x0, true, outer, {opening}, surface, outer.top_m);
-  const Eigen::Vector3d deep(x1 - x0, 0, 0);
-  const Eigen::Vector3d across(0, outer.left_m - outer.right_m, 0), up(0, 0, outer.top_m - outer.bottom_m);
-  const Eigen::Vector3d corner(x0, outer.right_m, outer.bottom_m);
+  const Eigen::Vector3d corner = outer.corner(x0), deep(x1 - x0, 0, 0), across = outer.across(),
+                        up = outer.up();
   mesh.addQuad(corner, deep, up, surface);           // outer side towards the right
   mesh.addQuad(corner + across, up, deep, surface);  // towards the left
   mesh.addQuad(corner + up, deep, across, surface);  // upwards
@@ -81,10 +82,8 @@ void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, d
 namespace {
 
 void addInnerFaces(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
-  const Eigen::Vector3d deep(x1 - x0, 0, 0);
-  const Eigen::Vector3d across(0, opening.left_m - opening.right_m, 0),
-      up(0, 0, opening.top_m - opening.bottom_m);
-  const Eigen::Vector3d corner(x0, opening.right_m, opening.bottom_m);
+  const Eigen::Vector3d corner = opening.corner(x0), deep(x1 - x0, 0, 0);
+  const Eigen::Vector3d across = opening.across(), up = opening.up();
   mesh.addQuad(corner + deep, -deep, up, surface);   // the right one faces left
   mesh.addQuad(corner + across, deep, up, surface);  // the left one faces right
   mesh.addQuad(corner + up, across, deep, surface);  // the upper one faces down
@@ -96,16 +95,13 @@ void addInnerFaces(Mesh& mesh, const Rectangle& opening, double x0, double x1, c
 // A second face lies behind each: where the border of sunlight cuts the first, nothing shines through.
 void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
   constexpr double kBehind_m = 0.002;
-  const Lighting light = mesh.lighting();
   addInnerFaces(mesh, opening, x0, x1, surface);
-  mesh.setLighting(light.inShadow());
+  const LitBy shadow(mesh.lighting().inShadow(), mesh);
   addInnerFaces(mesh, opening.grown(kBehind_m), x0 + 0.5 * kBehind_m, x1, surface);
-  mesh.setLighting(light);
 }
 
 void addPane(Mesh& mesh, double x_m, const Rectangle& face, const Surface& surface) {
-  const Eigen::Vector3d across(0, face.left_m - face.right_m, 0), up(0, 0, face.top_m - face.bottom_m);
-  mesh.addPicture({x_m, face.left_m, face.bottom_m}, -across, up, surface);
+  mesh.addPicture({x_m, face.left_m, face.bottom_m}, -face.across(), face.up(), surface);
 }
 
 void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& wall,

@@ -51,14 +51,23 @@ Eigen::Vector3d FaultPlan::slideAt(double now_sec) const {
   return slide_m;
 }
 
-Exposure ImageTraits::repeat(const Exposure& old, const Exposure& fresh) const {
-  Exposure again = fresh;
-  again.index = old.index;
-  again.shown = old.shown;
-  return again;
+Exposure FaultEffects::repeat(const Exposure& old, Exposure fresh) const {
+  fresh.index = old.index;
+  fresh.shown = old.shown;
+  return fresh;
 }
 
-void ImageTraits::spoil(Exposure& exposure, const FaultParams& fault) const {
+OdometrySample FaultEffects::repeat(OdometrySample old, const OdometrySample& fresh) const {
+  old.stamp_sec = fresh.stamp_sec;
+  return old;
+}
+
+ImuSample FaultEffects::repeat(ImuSample old, const ImuSample& fresh) const {
+  old.stamp_sec = fresh.stamp_sec;
+  return old;
+}
+
+void FaultEffects::spoil(Exposure& exposure, const FaultParams& fault) const {
   exposure.spoilt = isGarbage(fault) ? Exposure::Spoilt::kGarbage : Exposure::Spoilt::kMirrored;
 }
 
@@ -69,7 +78,7 @@ void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed) {
   cv::RNG(RandomStream(seed, name).bits()).fill(image, cv::RNG::UNIFORM, 0, 256);
 }
 
-void OdometryTraits::spoil(OdometrySample& sample, const FaultParams& fault) const {
+void FaultEffects::spoil(OdometrySample& sample, const FaultParams& fault) const {
   if (isGarbage(fault)) {
     sample.T_odom_base.translation() = nanVector();
     sample.velocity_odom_mps = sample.angular_velocity_base_radps = nanVector();
@@ -81,7 +90,7 @@ void OdometryTraits::spoil(OdometrySample& sample, const FaultParams& fault) con
   sample.velocity_odom_mps = turn * sample.velocity_odom_mps;
 }
 
-void ImuTraits::spoil(ImuSample& sample, const FaultParams& fault) const {
+void FaultEffects::spoil(ImuSample& sample, const FaultParams& fault) const {
   if (isGarbage(fault)) {
     sample.R_odom_base.coeffs().setConstant(kNan);
     sample.angular_velocity_base_radps = sample.specific_force_base_mps2 = nanVector();
@@ -92,13 +101,15 @@ void ImuTraits::spoil(ImuSample& sample, const FaultParams& fault) const {
   sample.specific_force_base_mps2 = roll.conjugate() * sample.specific_force_base_mps2;
 }
 
-void CalibrationTraits::spoil(CalibrationSample& sample, const FaultParams& fault) const {
+void FaultEffects::spoil(CalibrationSample& sample, const FaultParams& fault) const {
   const double factor = isGarbage(fault) ? kNan : fault.zoom;
   sample.camera.fx *= factor;
   sample.camera.fy *= factor;
 }
 
-void CommandTraits::spoil(VelocityCommand& command, const FaultParams& fault) {
+void FaultEffects::spoil(double& time_sec, const FaultParams& fault) const { time_sec -= fault.back_sec; }
+
+void FaultEffects::spoil(VelocityCommand& command, const FaultParams& fault) {
   if (!isGarbage(fault)) {
     command = {-command.velocity_odom_mps, -command.yaw_rate_radps};
     return;

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "simulation/random_stream.hpp"
-#include "simulation/scenario/fault_params.hpp"
+#include "simulation/scenario/sensor_params.hpp"
+#include "simulation/schedule.hpp"
 #include "simulation/sensors/imu_sensor.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
@@ -20,18 +21,55 @@
 
 namespace window_ingress::simulation {
 
+/// One exposure on its way to an image.
+struct Exposure {
+  std::uint64_t index = 0;  ///< number of the shown image, for its noise
+  double stamp_sec = 0.0;
+  VehicleTruth truth;  ///< at the stamp
+  VehicleTruth shown;  ///< vehicle as shown in the image, relative to a house at its resting place
+  enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
+};
+
+/// The content of camera_info for an image.
+struct CalibrationSample {
+  double stamp_sec = 0.0;
+  geometry::PinholeCamera camera;
+};
+
+/// Effects of faults on the values of each kind.
+struct FaultEffects {
+  /// The old value in the form in which it replaces the fresh one.
+  Exposure repeat(const Exposure& old, Exposure fresh) const;
+  OdometrySample repeat(OdometrySample old, const OdometrySample& fresh) const;
+  ImuSample repeat(ImuSample old, const ImuSample& fresh) const;
+  template <typename Value>
+  Value repeat(const Value& old, const Value&) const {
+    return old;
+  }
+
+  /// For the kinds "garbage" and "wrong".
+  void spoil(Exposure& exposure, const FaultParams& fault) const;
+  void spoil(OdometrySample& sample, const FaultParams& fault) const;
+  void spoil(ImuSample& sample, const FaultParams& fault) const;
+  void spoil(CalibrationSample& sample, const FaultParams& fault) const;
+  void spoil(double& time_sec, const FaultParams& fault) const;  ///< the clock
+  void spoil(VelocityCommand& command, const FaultParams& fault);
+
+  RandomStream random{0, "garbage"};  ///< of commands
+};
+
+/// Applies `exposure.spoilt` to the image.
+void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed);
+
 /// The path of one kind of data out of the world or into it. Without a fault, values pass at once. During a
 /// fault values are lost, late, repeated or spoiled. Times must not decrease.
 ///
-/// `Traits::repeat(old, fresh)`: the old value in the form in which it replaces the fresh one.
-/// `Traits::spoil(value, fault)`: for the kinds "garbage" and "wrong".
-///
 /// The end of a fault discards the values that are still delayed: this keeps the order and leaves no later
 /// effect.
-template <typename Value, typename Traits>
+template <typename Value, typename Effects = FaultEffects>
 class FaultLine {
  public:
-  explicit FaultLine(Traits traits = {}) : traits_(std::move(traits)) {}
+  explicit FaultLine(Effects effects = {}) : effects_(std::move(effects)) {}
 
   /// \param fault the acting fault, or null
   void put(double now_sec, Value value, const FaultParams* fault) {
@@ -42,15 +80,14 @@ class FaultLine {
     } else if (passes(now_sec, *fault)) {
       change(value, *fault);
       const double due_sec = fault->kind == "delayed" ? now_sec + fault->delay_sec : now_sec;
-      held_.emplace_back(due_sec, std::move(value));
+      held_.push(due_sec, std::move(value));
     }
   }
 
   /// The next value that has arrived, in order; call until empty.
   std::optional<Value> take(double now_sec, const FaultParams* fault) {
     notice(fault);
-    for (; !held_.empty() && held_.front().first <= now_sec + 1e-9; held_.pop_front())
-      makeReady(std::move(held_.front().second));
+    while (auto due = held_.take(now_sec)) makeReady(std::move(*due));
     if (ready_.empty()) return std::nullopt;
     std::optional<Value> first = std::move(ready_.front());
     ready_.pop_front();
@@ -68,7 +105,7 @@ class FaultLine {
   void notice(const FaultParams* fault) {
     if (fault == acting_) return;
     acting_ = fault;
-    held_.clear();
+    held_ = {};
     next_sec_ = -1.0;
   }
 
@@ -85,17 +122,17 @@ class FaultLine {
   void change(Value& value, const FaultParams& fault) {
     if (fault.kind == "stuck") {
       if (!before_) before_ = value;  // stuck from the start: repeats the first value
-      value = traits_.repeat(*before_, value);
+      value = effects_.repeat(*before_, value);
     } else if (fault.kind == "garbage" || fault.kind == "wrong") {
-      traits_.spoil(value, fault);
+      effects_.spoil(value, fault);
     }
   }
 
-  Traits traits_;
+  Effects effects_;
   const FaultParams* acting_ = nullptr;
   std::optional<Value> before_;
   double next_sec_ = -1.0;
-  std::deque<std::pair<double, Value>> held_;
+  DelayLine<Value> held_;
   std::deque<Value> ready_;
 };
 
@@ -116,70 +153,5 @@ class FaultPlan {
  private:
   std::deque<FaultParams> faults_;  // a deque, because acting faults must keep their addresses
 };
-
-/// One exposure on its way to an image.
-struct Exposure {
-  std::uint64_t index = 0;  ///< number of the shown image, for its noise
-  double stamp_sec = 0.0;
-  VehicleTruth truth;  ///< at the stamp
-  VehicleTruth shown;  ///< vehicle as shown in the image, relative to a house at its resting place
-  enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
-};
-
-/// Repeats an old sample under a new stamp.
-template <typename Sample>
-struct Restamped {
-  Sample repeat(const Sample& old, const Sample& fresh) const {
-    Sample again = old;
-    again.stamp_sec = fresh.stamp_sec;
-    return again;
-  }
-};
-
-struct ImageTraits {
-  Exposure repeat(const Exposure& old, const Exposure& fresh) const;
-  void spoil(Exposure& exposure, const FaultParams& fault) const;
-};
-
-/// Applies `exposure.spoilt` to the image.
-void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed);
-
-/// Odometry, and the transform derived from it.
-struct OdometryTraits : Restamped<OdometrySample> {
-  void spoil(OdometrySample& sample, const FaultParams& fault) const;
-};
-
-struct ImuTraits : Restamped<ImuSample> {
-  void spoil(ImuSample& sample, const FaultParams& fault) const;
-};
-
-/// The content of camera_info for an image.
-struct CalibrationSample {
-  double stamp_sec = 0.0;
-  geometry::PinholeCamera camera;
-};
-
-struct CalibrationTraits {
-  CalibrationSample repeat(const CalibrationSample& old, const CalibrationSample&) const { return old; }
-  void spoil(CalibrationSample& sample, const FaultParams& fault) const;
-};
-
-struct ClockTraits {
-  double repeat(double old, double) const { return old; }
-  void spoil(double& time_sec, const FaultParams& fault) const { time_sec -= fault.back_sec; }
-};
-
-struct CommandTraits {
-  VelocityCommand repeat(const VelocityCommand& old, const VelocityCommand&) const { return old; }
-  void spoil(VelocityCommand& command, const FaultParams& fault);
-  RandomStream random;
-};
-
-using ImageLine = FaultLine<Exposure, ImageTraits>;
-using OdometryLine = FaultLine<OdometrySample, OdometryTraits>;
-using ImuLine = FaultLine<ImuSample, ImuTraits>;
-using CalibrationLine = FaultLine<CalibrationSample, CalibrationTraits>;
-using ClockLine = FaultLine<double, ClockTraits>;
-using CommandLine = FaultLine<VelocityCommand, CommandTraits>;
 
 }  // namespace window_ingress::simulation

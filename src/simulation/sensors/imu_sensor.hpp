@@ -27,10 +27,8 @@ class ImuSensor {
       : params_(params),
         random_(seed, "imu"),
         periodic_(params.rate_hz),
-        tilt_rad_(random_.normals(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {
-    RandomStream bias(seed, "imu bias");
-    for (int axis = 0; axis < 3; ++axis) gyro_bias_radps_[axis] = bias.normal(params.gyro_bias_radps);
-  }
+        tilt_rad_(random_.normals(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))),
+        gyro_bias_radps_(RandomStream(seed, "imu bias").normals(params.gyro_bias_radps)) {}
 
   /// Call at each physics step. `odometry_drift`: see `OdometrySensor::drift`.
   void update(double now_sec, const VehicleTruth& truth, const Eigen::Vector3d& specific_force_base_mps2,

@@ -14,6 +14,14 @@ Eigen::Vector3d horizontalTimes(double factor, const Eigen::Vector3d& v) {
   return {factor * v.x(), factor * v.y(), v.z()};
 }
 
+Eigen::Vector3d drawBias(const OdometryParams& params, std::uint32_t seed) {
+  RandomStream random(seed, "odometry velocity bias");
+  const double towards_rad = random.uniform(-M_PI, M_PI);
+  const double size_mps =
+      params.velocity_bias_mps + params.velocity_bias_spread_mps * random.uniform(-1.0, 1.0);
+  return std::max(0.0, size_mps) * Eigen::Vector3d(std::cos(towards_rad), std::sin(towards_rad), 0.0);
+}
+
 }  // namespace
 
 OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
@@ -26,23 +34,15 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
       periodic_(params.rate_hz),
       heading_error_rad_(params.heading_error_rad *
                          RandomStream(seed, "odometry heading error").uniform(-1.0, 1.0)),
-      velocity_bias_base_mps_(drawBias(seed)) {
+      velocity_bias_base_mps_(drawBias(params, seed)) {
   for (int axis = 0; axis < 2; ++axis) wander_m_[axis] = wander_random_.normal(params.wander_m);
   for (int axis = 0; axis < 2; ++axis)
     velocity_wander_mps_[axis] = velocity_wander_random_.normal(params.velocity_wander_mps);
 }
 
-Eigen::Vector3d OdometrySensor::drawBias(std::uint32_t seed) const {
-  RandomStream random(seed, "odometry velocity bias");
-  const double towards_rad = random.uniform(-M_PI, M_PI);
-  const double size_mps =
-      params_.velocity_bias_mps + params_.velocity_bias_spread_mps * random.uniform(-1.0, 1.0);
-  return std::max(0.0, size_mps) * Eigen::Vector3d(std::cos(towards_rad), std::sin(towards_rad), 0.0);
-}
-
 void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
   own_velocity_.push(now_sec + params_.estimate_delay_sec, truth.velocity_odom_mps);
-  if (const auto velocity = own_velocity_.takeLatest(now_sec)) delayed_velocity_mps_ = *velocity;
+  while (const auto velocity = own_velocity_.take(now_sec)) delayed_velocity_mps_ = *velocity;
   if (!periodic_.due(now_sec)) return;
   const double height_m = std::max(0.0, truth.T_odom_base.translation().z());
   flow_factor_ =

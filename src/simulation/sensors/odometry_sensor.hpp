@@ -45,7 +45,6 @@ class OdometrySensor {
   void deliver(double now_sec, const OdometrySample& sample);
   OdometrySample measure(double now_sec, const VehicleTruth& truth);
   Eigen::Vector3d scaled(const Eigen::Vector3d& velocity_mps) const;
-  Eigen::Vector3d drawBias(std::uint32_t seed) const;
 
   OdometryParams params_;
   RandomStream walk_random_, noise_random_, wander_random_, velocity_wander_random_, delivery_random_;

@@ -55,11 +55,11 @@ std::vector<Face> facesOf(const Mesh& mesh) {
   return faces;
 }
 
-void VisibleFaces::find(const std::vector<Face>& faces, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_camera_window, bool indoors) {
+std::vector<std::size_t> visibleFaces(const std::vector<Face>& faces, const geometry::PinholeCamera& camera,
+                                      const Eigen::Isometry3d& T_camera_window, bool indoors) {
   const Eigen::Vector3d eye = T_camera_window.inverse().translation();
   const auto planes = frustum(camera);
-  by_distance_.clear();
+  std::vector<std::pair<double, std::size_t>> by_distance;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     if ((face.batch.indoors && !indoors) || face.normal.dot(eye - face.corners[0]) <= 0.0) continue;
@@ -73,11 +73,12 @@ void VisibleFaces::find(const std::vector<Face>& faces, const geometry::PinholeC
       return std::all_of(corners.begin(), corners.end(),
                          [&](const Eigen::Vector3d& corner) { return plane.dot(corner) < 0.0; });
     });
-    if (!outside) by_distance_.emplace_back(farthest, i);
+    if (!outside) by_distance.emplace_back(farthest, i);
   }
-  std::sort(by_distance_.begin(), by_distance_.end());
-  order_.clear();
-  for (const auto& [distance, i] : by_distance_) order_.push_back(i);
+  std::sort(by_distance.begin(), by_distance.end());
+  std::vector<std::size_t> order;
+  for (const auto& [distance, i] : by_distance) order.push_back(i);
+  return order;
 }
 
 }  // namespace window_ingress::simulation

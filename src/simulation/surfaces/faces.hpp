@@ -26,15 +26,7 @@ struct Face {
 std::vector<Face> facesOf(const Mesh& mesh);
 
 /// Numbers of the faces that may be visible, near ones first.
-class VisibleFaces {
- public:
-  void find(const std::vector<Face>& faces, const geometry::PinholeCamera& camera,
-            const Eigen::Isometry3d& T_camera_window, bool indoors);
-  const std::vector<std::size_t>& order() const { return order_; }
-
- private:
-  std::vector<std::pair<double, std::size_t>> by_distance_;
-  std::vector<std::size_t> order_;
-};
+std::vector<std::size_t> visibleFaces(const std::vector<Face>& faces, const geometry::PinholeCamera& camera,
+                                      const Eigen::Isometry3d& T_camera_window, bool indoors);
 
 }  // namespace window_ingress::simulation

@@ -1,17 +1,12 @@
 #include "simulation/surfaces/mesh.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace window_ingress::simulation {
 namespace {
 
 constexpr double kOnPlane_m = 1e-9;
-
-Corner between(const Corner& a, const Corner& b, double part) {
-  return {a.position + part * (b.position - a.position), a.uv + part * (b.uv - a.uv)};
-}
-
-Polygon unlessFlat(const Polygon& polygon, bool has_area) { return has_area ? polygon : Polygon(); }
 
 Eigen::Vector3d normalOf(const Polygon& polygon) {
   const Eigen::Vector3d& origin = polygon[0].position;
@@ -22,6 +17,30 @@ Eigen::Vector3d middleOf(const Polygon& polygon) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& corner : polygon) sum += corner.position;
   return sum / static_cast<double>(polygon.size());
+}
+
+// The parts of a convex polygon inside and outside a half space; either may be empty. Points within
+// kOnPlane_m of the plane belong to both.
+std::pair<Polygon, Polygon> split(const Polygon& polygon, const HalfSpace& half_space) {
+  Polygon within, beyond;
+  bool any_within = false, any_beyond = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double at_a = half_space.beyond(a.position), at_b = half_space.beyond(b.position);
+    any_within = any_within || at_a < -kOnPlane_m;
+    any_beyond = any_beyond || at_a > kOnPlane_m;
+    if (at_a <= kOnPlane_m) within.push_back(a);
+    if (at_a >= -kOnPlane_m) beyond.push_back(a);
+    const bool crosses = std::min(at_a, at_b) < -kOnPlane_m && std::max(at_a, at_b) > kOnPlane_m;
+    if (!crosses) continue;
+    const double part = at_a / (at_a - at_b);
+    const Corner cut{a.position + part * (b.position - a.position), a.uv + part * (b.uv - a.uv)};
+    within.push_back(cut);
+    beyond.push_back(cut);
+  }
+  if (any_beyond && !any_within) within.clear();
+  if (!any_beyond) beyond.clear();
+  return {within, beyond};
 }
 
 // Every plane cuts every part, so that neighbouring parts share their corners.
@@ -40,25 +59,6 @@ std::vector<Polygon> cutBy(const std::vector<HalfSpace>& planes, const Polygon& 
 }
 
 }  // namespace
-
-std::pair<Polygon, Polygon> split(const Polygon& polygon, const HalfSpace& half_space) {
-  Polygon within, beyond;
-  bool any_within = false, any_beyond = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double at_a = half_space.beyond(a.position), at_b = half_space.beyond(b.position);
-    any_within = any_within || at_a < -kOnPlane_m;
-    any_beyond = any_beyond || at_a > kOnPlane_m;
-    if (at_a <= kOnPlane_m) within.push_back(a);
-    if (at_a >= -kOnPlane_m) beyond.push_back(a);
-    const bool crosses = std::min(at_a, at_b) < -kOnPlane_m && std::max(at_a, at_b) > kOnPlane_m;
-    if (!crosses) continue;
-    const Corner cut = between(a, b, at_a / (at_a - at_b));
-    within.push_back(cut);
-    beyond.push_back(cut);
-  }
-  return {unlessFlat(within, any_within || !any_beyond), unlessFlat(beyond, any_beyond)};
-}
 
 void Mesh::addPolygon(const Polygon& polygon, const Surface& surface) {
   const Eigen::Vector3d normal = normalOf(polygon);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "simulation/surfaces/texture.hpp"
@@ -77,10 +77,6 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// The parts of a convex polygon inside and outside a half space; either may be empty. Points within 1e-9 m
-/// of the plane belong to both.
-std::pair<Polygon, Polygon> split(const Polygon& polygon, const HalfSpace& half_space);
-
 /// Quadrilaterals by texture. Each is shaded once, with the light set when it was added, and cut along the
 /// border of sun and shadow.
 class Mesh {
@@ -107,7 +103,7 @@ class Mesh {
     bool indoors;
     Texture texture;
     bool operator<(const Batch& other) const {
-      return std::make_pair(indoors, texture) < std::make_pair(other.indoors, other.texture);
+      return std::tie(indoors, texture) < std::tie(other.indoors, other.texture);
     }
   };
   const std::map<Batch, std::vector<Vertex>>& batches() const { return batches_; }
@@ -118,6 +114,21 @@ class Mesh {
   Lighting lighting_;
   bool indoors_ = false;
   std::map<Batch, std::vector<Vertex>> batches_;
+};
+
+/// Gives a mesh another lighting for a while.
+class LitBy {
+ public:
+  LitBy(const Lighting& lighting, Mesh& mesh) : mesh_(mesh), before_(mesh.lighting()) {
+    mesh.setLighting(lighting);
+  }
+  ~LitBy() { mesh_.setLighting(before_); }
+  LitBy(const LitBy&) = delete;
+  LitBy& operator=(const LitBy&) = delete;
+
+ private:
+  Mesh& mesh_;
+  Lighting before_;
 };
 
 }  // namespace window_ingress::simulation

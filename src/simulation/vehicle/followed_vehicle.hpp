@@ -44,20 +44,15 @@ class FollowedVehicle {
   const Eigen::Vector3d& flownVelocity() const { return flown_odom_mps_; }
 
  private:
-  static Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double fraction) {
-    return a + fraction * (b - a);
-  }
-
   static VehicleTruth between(const VehicleTruth& a, const VehicleTruth& b, double fraction) {
     const Eigen::Quaterniond qa(a.T_odom_base.linear()), qb(b.T_odom_base.linear());
-    VehicleTruth truth;
-    truth.T_odom_base =
-        geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
-                           between(a.T_odom_base.translation(), b.T_odom_base.translation(), fraction));
-    truth.velocity_odom_mps = between(a.velocity_odom_mps, b.velocity_odom_mps, fraction);
-    truth.angular_velocity_base_radps =
-        between(a.angular_velocity_base_radps, b.angular_velocity_base_radps, fraction);
-    return truth;
+    const auto mix = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d {
+      return from + fraction * (to - from);
+    };
+    return {geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
+                               mix(a.T_odom_base.translation(), b.T_odom_base.translation())),
+            mix(a.velocity_odom_mps, b.velocity_odom_mps),
+            mix(a.angular_velocity_base_radps, b.angular_velocity_base_radps)};
   }
 
   struct Waypoint {

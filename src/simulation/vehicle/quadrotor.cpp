@@ -8,6 +8,15 @@
 namespace window_ingress::simulation {
 namespace {
 
+// Bounds of the commanded thrust, as acceleration.
+constexpr double kMinThrust_mps2 = 0.2 * kGravity_mps2, kMaxThrust_mps2 = 2.0 * kGravity_mps2;
+constexpr double kMotorTimeConstant_sec = 0.04;
+
+// Fraction of a step that a first-order lag follows in one time step.
+double lagPart(double step_sec, double time_constant_sec) {
+  return 1.0 - std::exp(-step_sec / time_constant_sec);
+}
+
 // Keeps the vertical part and limits the horizontal one.
 Eigen::Vector3d limitTilt(Eigen::Vector3d force, double max_tilt_rad) {
   force.z() = std::clamp(force.z(), kMinThrust_mps2, kMaxThrust_mps2);
@@ -29,18 +38,22 @@ Eigen::Matrix3d attitudeFor(const Eigen::Vector3d& force, double yaw_rad) {
 
 Quadrotor::Quadrotor(const QuadrotorParams& params, const Eigen::Isometry3d& T_odom_base,
                      const Eigen::Vector3d& wind_odom_mps)
-    : params_(params), motors_(params), controller_(params), rest_height_m_(params.half_height_m) {
+    : params_(params),
+      thrust_gain_((1.0 + params.thrust_gain_error) / params.massRatio()),
+      motor_command_mps2_(kGravity_mps2 / thrust_gain_),
+      controller_(params),
+      rest_height_m_(params.half_height_m) {
   truth_.T_odom_base = T_odom_base;
   const Eigen::Vector3d gravity(0, 0, kGravity_mps2);
-  hover_trim_mps2_ = gravity / motors_.gain() - gravity;
+  hover_trim_mps2_ = gravity / thrust_gain_ - gravity;
   controller_.setTrim(hover_trim_mps2_);
   if (T_odom_base.translation().z() <= params.half_height_m + 1e-6) return;
   const Eigen::Vector3d against_wind =
-      -params.drag_per_sec / params.massRatio() / motors_.gain() * wind_odom_mps;
+      -params.drag_per_sec / params.massRatio() / thrust_gain_ * wind_odom_mps;
   controller_.setTrim(hover_trim_mps2_ + against_wind);
   const Eigen::Vector3d force = limitTilt(controller_.trim() + gravity, params.max_tilt_rad);
   truth_.T_odom_base.linear() = attitudeFor(force, geometry::yawOf(T_odom_base.linear()));
-  motors_.set(force.norm());
+  motor_command_mps2_ = force.norm();
   specific_force_base_mps2_ = truth_.T_odom_base.linear().transpose() * gravity;
 }
 
@@ -52,8 +65,7 @@ void Quadrotor::command(const VelocityCommand& command) {
   command_age_sec_ = 0.0;
 }
 
-void Quadrotor::step(double step_sec, const AirAtVehicle& air,
-                     const Eigen::Vector3d& estimated_velocity_odom_mps) {
+void Quadrotor::step(double step_sec, const Air& air, const Eigen::Vector3d& estimated_velocity_odom_mps) {
   command_age_sec_ += step_sec;
   if (command_age_sec_ > params_.command_timeout_sec) command_ = VelocityCommand();
   if (crashed_) {
@@ -61,7 +73,10 @@ void Quadrotor::step(double step_sec, const AirAtVehicle& air,
   } else {
     const Eigen::Vector3d force = wantedForce(estimated_velocity_odom_mps, step_sec);
     turn(force, step_sec);
-    move(motors_.step(force.dot(truth_.T_odom_base.linear().col(2)), step_sec), air, step_sec);
+    const double thrust_mps2 =
+        std::clamp(force.dot(truth_.T_odom_base.linear().col(2)), kMinThrust_mps2, kMaxThrust_mps2);
+    motor_command_mps2_ += lagPart(step_sec, kMotorTimeConstant_sec) * (thrust_mps2 - motor_command_mps2_);
+    move(thrust_gain_ * motor_command_mps2_, air, step_sec);
   }
   standOnGround();
 }
@@ -100,10 +115,10 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
   truth_.T_odom_base.linear() = turned.normalized().toRotationMatrix();
 }
 
-void Quadrotor::move(double thrust_mps2, const AirAtVehicle& air, double step_sec) {
+void Quadrotor::move(double thrust_mps2, const Air& air, double step_sec) {
   const Eigen::Matrix3d& attitude = truth_.T_odom_base.linear();
-  const Eigen::Vector3d drag = params_.drag_per_sec * (air.wind_odom_mps - truth_.velocity_odom_mps);
-  const Eigen::Vector3d push = crashed_ ? Eigen::Vector3d::Zero() : air.push_odom_mps2;
+  const Eigen::Vector3d drag = params_.drag_per_sec * (air.wind_mps - truth_.velocity_odom_mps);
+  const Eigen::Vector3d push = crashed_ ? Eigen::Vector3d::Zero() : air.push_mps2;
   const Eigen::Vector3d specific_force = thrust_mps2 * attitude.col(2) + (drag + push) / params_.massRatio();
   specific_force_base_mps2_ = attitude.transpose() * specific_force;
   const Eigen::Vector3d before = truth_.velocity_odom_mps;

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
@@ -12,49 +10,16 @@ namespace window_ingress::simulation {
 
 constexpr double kGravity_mps2 = 9.81;
 
-/// Bounds of the commanded thrust, as acceleration [m/s^2].
-constexpr double kMinThrust_mps2 = 0.2 * kGravity_mps2;
-constexpr double kMaxThrust_mps2 = 2.0 * kGravity_mps2;
-
-/// Fraction of a step that a first-order lag follows in one time step.
-inline double lagPart(double step_sec, double time_constant_sec) {
-  return 1.0 - std::exp(-step_sec / time_constant_sec);
-}
-
-/// All motors as one: thrust follows its command with a first-order lag. Its gain has an error, and a payload
-/// reduces it; the controllers know neither.
-class Motors {
- public:
-  /// Starts with the thrust that carries the vehicle.
-  explicit Motors(const QuadrotorParams& params)
-      : gain_((1.0 + params.thrust_gain_error) / params.massRatio()), wanted_mps2_(kGravity_mps2 / gain_) {}
-
-  /// Actual thrust over commanded thrust.
-  double gain() const { return gain_; }
-  void set(double wanted_mps2) { wanted_mps2_ = wanted_mps2; }  ///< at once, without lag
-  /// \return acceleration by thrust at the end of the step [m/s^2]
-  double step(double wanted_mps2, double step_sec) {
-    const double wanted = std::clamp(wanted_mps2, kMinThrust_mps2, kMaxThrust_mps2);
-    wanted_mps2_ += lagPart(step_sec, kMotorTimeConstant_sec) * (wanted - wanted_mps2_);
-    return gain_ * wanted_mps2_;
-  }
-
- private:
-  static constexpr double kMotorTimeConstant_sec = 0.04;
-
-  double gain_, wanted_mps2_;
-};
-
 /// Command for the vehicle's velocity controller, in odometry axes.
 struct VelocityCommand {
   Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
   double yaw_rate_radps = 0.0;
 };
 
-/// Effect of the air on the vehicle during a step.
-struct AirAtVehicle {
-  Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d push_odom_mps2 = Eigen::Vector3d::Zero();  ///< beside drag, for a vehicle without payload
+/// Effect of the air on the vehicle during a step, in the axes of the caller.
+struct Air {
+  Eigen::Vector3d wind_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d push_mps2 = Eigen::Vector3d::Zero();  ///< beside drag, for a vehicle without payload
 };
 
 /// A quadrotor with a velocity controller. It must tilt to accelerate, so that its camera nods with every
@@ -63,8 +28,9 @@ struct AirAtVehicle {
 /// velocity error -> acceleration (`VelocityController`) -> tilt and thrust -> attitude by a second-order
 /// loop with limited rates. The closed loop answers a small step with 1 / (T Tr s^2 + T s + 1), T the
 /// attitude time constant, Tr = `kRateTimeConstant_sec` that of the body rates. Rigid body, thrust along the
-/// body's z, drag linear in airspeed. The ground (z = 0) carries the vehicle. Payload reduces the effect of
-/// all forces.
+/// body's z, drag linear in airspeed. The ground (z = 0) carries the vehicle. Thrust follows its command with
+/// a first-order lag. Payload reduces the effect of all forces; the controllers know neither it nor the error
+/// of the thrust's gain.
 class Quadrotor {
  public:
   static constexpr double kRateTimeConstant_sec = 0.03;
@@ -76,9 +42,9 @@ class Quadrotor {
   /// Ignores a command that is not finite, as if it were lost.
   void command(const VelocityCommand& command);
 
-  /// Simulates one step. The controller sees `estimated_velocity_odom_mps` (axes of the true odom), not the
-  /// true velocity.
-  void step(double step_sec, const AirAtVehicle& air, const Eigen::Vector3d& estimated_velocity_odom_mps);
+  /// Simulates one step. `air` is in the axes of the true odom, as `estimated_velocity_odom_mps`, which the
+  /// controller sees in place of the true velocity.
+  void step(double step_sec, const Air& air, const Eigen::Vector3d& estimated_velocity_odom_mps);
 
   /// After a collision: stops the vehicle in place with motors off; it falls until its centre is at
   /// `rest_height_m` or on the ground. This is final.
@@ -92,11 +58,12 @@ class Quadrotor {
  private:
   Eigen::Vector3d wantedForce(const Eigen::Vector3d& velocity_mps, double step_sec);
   void turn(const Eigen::Vector3d& force, double step_sec);
-  void move(double thrust_mps2, const AirAtVehicle& air, double step_sec);
+  void move(double thrust_mps2, const Air& air, double step_sec);
   void standOnGround();
 
   QuadrotorParams params_;
-  Motors motors_;
+  double thrust_gain_;         // actual thrust over commanded thrust
+  double motor_command_mps2_;  // after the lag of the motors
   VehicleTruth truth_;
   VelocityController controller_;
   VelocityCommand command_;

@@ -5,6 +5,7 @@
 
 #include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/vehicle/dryden_gusts.hpp"
+#include "simulation/vehicle/quadrotor.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
@@ -18,12 +19,6 @@ struct WallInAir {
   double half_width_m = 5.5;  ///< half width of the wall
   double ground_z_m = -1.5;
   double top_z_m = 1.6;  ///< top of the wall
-};
-
-/// Effect of the air on the vehicle, axes of the window.
-struct Air {
-  Eigen::Vector3d wind_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d push_mps2 = Eigen::Vector3d::Zero();
 };
 
 /// Air around the house: steady wind and Dryden gusts outside, less of both in the room, a draught through

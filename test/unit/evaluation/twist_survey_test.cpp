@@ -7,7 +7,7 @@
 #include <random>
 
 #include "estimation/checks/twist_check.hpp"
-#include "simulation/scenario/vehicle_profiles.hpp"
+#include "simulation/scenario/scenario.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

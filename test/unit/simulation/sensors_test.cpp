@@ -74,16 +74,6 @@ TEST(Schedule, DelayedValuesArriveInTimeAndInOrder) {
   EXPECT_FALSE(line.take(5.0));
 }
 
-TEST(Schedule, OfDelayedValuesTheLatestCanBeAskedFor) {
-  DelayLine<int> line;
-  EXPECT_FALSE(line.takeLatest(0.0));
-  line.push(0.1, 1);
-  line.push(0.15, 2);
-  line.push(0.3, 3);
-  EXPECT_EQ(line.takeLatest(0.15), 2);
-  EXPECT_FALSE(line.takeLatest(0.15));
-}
-
 TEST(Schedule, WhatLeftLaterNeverOvertakes) {
   DelayLine<int> line;
   line.push(0.5, 1);

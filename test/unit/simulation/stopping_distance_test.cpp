@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scenario/vehicle_profiles.hpp"
+#include "simulation/scenario/scenario.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/geometry/frames.hpp"

@@ -10,7 +10,7 @@
 
 #include "evaluation/flights/flight_results.hpp"
 #include "refusal.hpp"
-#include "simulation/scenario/vehicle_profiles.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::evaluation::closed_loop_flight_test {
 

@@ -1,11 +1,10 @@
-#include "simulation/scenario/vehicle_profiles.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "simulation/scenario/scenario.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -76,7 +75,7 @@ class Flyer {
   }
   void step() {
     const Eigen::Vector3d believed = sensor_.drift().linear().transpose() * sensor_.velocityEstimate();
-    vehicle_.step(kStep_sec, AirAtVehicle(), believed);
+    vehicle_.step(kStep_sec, Air(), believed);
     now_sec_ = static_cast<double>(++steps_) * kStep_sec;
     sensor_.update(now_sec_, vehicle_.truth());
   }

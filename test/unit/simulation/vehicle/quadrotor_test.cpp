@@ -247,7 +247,7 @@ TEST(Quadrotor, ControlsWhatItBelievesNotTheTruth) {
   for (int i = 0; i < 4000; ++i) {
     vehicle.command({Eigen::Vector3d(1.0, 0, 0)});
     const Eigen::Vector3d believed = 1.25 * vehicle.truth().velocity_odom_mps + Eigen::Vector3d(0, 0.1, 0);
-    vehicle.step(kStep_sec, AirAtVehicle(), believed);
+    vehicle.step(kStep_sec, Air(), believed);
   }
   EXPECT_NEAR(vehicle.truth().velocity_odom_mps.x(), 0.8, 0.01);
   EXPECT_NEAR(vehicle.truth().velocity_odom_mps.y(), -0.08, 0.005);
@@ -255,7 +255,7 @@ TEST(Quadrotor, ControlsWhatItBelievesNotTheTruth) {
 
 TEST(Quadrotor, APushMovesItUntilTheTrimHasLearntIt) {
   Quadrotor vehicle = hovering();
-  const AirAtVehicle air{kStill, {0.5, 0, 0}};
+  const Air air{kStill, {0.5, 0, 0}};
   double fastest_mps = 0.0;
   for (int i = 0; i < 6000; ++i) {
     vehicle.command({});
