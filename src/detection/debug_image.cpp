@@ -29,14 +29,15 @@ bool isWorthWords(const CandidateTrace& candidate) {
 int lineWidth(const cv::Mat& canvas) { return std::max(1, canvas.cols / 800); }
 
 void drawCandidates(cv::Mat& canvas, const DetectionTrace& trace) {
+  const auto draw = [&](bool has_score) {
+    for (const CandidateTrace& candidate : trace.candidates)
+      if (hasScore(candidate) == has_score && candidate.reject != RejectReason::kNone)
+        drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
+  };
   const cv::Mat before = canvas.clone();
-  for (const CandidateTrace& candidate : trace.candidates)
-    if (!hasScore(candidate) && candidate.reject != RejectReason::kNone)
-      drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
+  draw(false);
   cv::addWeighted(canvas, kFaint, before, 1.0 - kFaint, 0.0, canvas);
-  for (const CandidateTrace& candidate : trace.candidates)
-    if (hasScore(candidate) && candidate.reject != RejectReason::kNone)
-      drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
+  draw(true);
 }
 
 std::vector<TextOverlay::Line> legendOf(const DetectionTrace& trace) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 namespace window_ingress::detection {
 namespace {
@@ -54,11 +55,10 @@ const char* toString(CandidateSource source) {
 }
 
 void DetectionTrace::clear() {
-  std::vector<CandidateTrace> memory;
-  memory.swap(candidates);
+  auto memory = std::move(candidates);
   memory.clear();
   *this = DetectionTrace();
-  candidates.swap(memory);
+  candidates = std::move(memory);
 }
 
 std::string describe(const CandidateTrace& candidate) {

@@ -1,11 +1,10 @@
-#include "window_ingress/detection/reference_drawing.hpp"
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "detection/reference/ring_samples.hpp"
+#include "window_ingress/detection/debug_image.hpp"
 
 namespace window_ingress::detection {
 namespace {

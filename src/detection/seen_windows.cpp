@@ -19,15 +19,6 @@ bool isWindow(const CandidateTrace& candidate) {
          looksOtherwise(candidate.reject);
 }
 
-SeenWindow seenFrom(const CandidateTrace& other) {
-  return {other.quad,          other.score, other.has_appearance,
-          other.bhattacharyya, false,       !looksOtherwise(other.reject)};
-}
-
-SeenWindow seenFrom(const WindowObservation& target) {
-  return {target.corners, target.score, target.has_appearance, target.bhattacharyya, true, true};
-}
-
 bool overlaps(const SeenWindow& a, const SeenWindow& b) {
   return geometry::intersectionOverUnion(a.corners, b.corners) > kSameSeen ||
          geometry::contains(a.corners, geometry::centroid(b.corners)) ||
@@ -39,7 +30,9 @@ bool overlaps(const SeenWindow& a, const SeenWindow& b) {
 void windowsSeen(const DetectionTrace& trace, const std::optional<WindowObservation>& target,
                  std::vector<SeenWindow>& windows) {
   windows.clear();
-  if (target && target->whole()) windows.push_back(seenFrom(*target));
+  if (target && target->whole())
+    windows.push_back(
+        {target->corners, target->score, target->has_appearance, target->bhattacharyya, true, true});
   std::vector<const CandidateTrace*> fair;
   for (const CandidateTrace& candidate : trace.candidates)
     if (isWindow(candidate) && geometry::isConvex(candidate.quad)) fair.push_back(&candidate);
@@ -49,7 +42,12 @@ void windowsSeen(const DetectionTrace& trace, const std::optional<WindowObservat
   std::sort(fair.begin(), fair.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
   for (const CandidateTrace* candidate : fair) {
     if (windows.size() == kMaxWindows) break;
-    const SeenWindow seen = seenFrom(*candidate);
+    const SeenWindow seen{candidate->quad,
+                          candidate->score,
+                          candidate->has_appearance,
+                          candidate->bhattacharyya,
+                          false,
+                          !looksOtherwise(candidate->reject)};
     const bool is_known = std::any_of(windows.begin(), windows.end(),
                                       [&](const SeenWindow& better) { return overlaps(better, seen); });
     if (!is_known) windows.push_back(seen);

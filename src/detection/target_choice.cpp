@@ -19,6 +19,7 @@ constexpr double kCutAway = 0.01;        ///< how far a corner may lie outside t
 constexpr int kFewestSeen = 3;           ///< borders that must be visible where the surroundings were aligned
 constexpr double kWholeRing = 0.9;       ///< correlation above which nothing of the ring is hidden
 constexpr int kAllSeen = 4;              ///< all borders are visible
+constexpr double kVariantRadiusPx = 4.0;  ///< search reach for borders of a window that was passed over [px]
 
 // Correlation of the next best place.
 double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& candidates) {
@@ -27,6 +28,21 @@ double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate
   for (const ScoredCandidate& other : candidates)
     if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
   return best;
+}
+
+// Observation of a window found by a search, with its fitted borders.
+WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
+                                double stamp_sec) {
+  WindowObservation window;
+  window.stamp_sec = stamp_sec;
+  window.corners = borders.corners;
+  window.corner_covariance = borders.corner_covariance;
+  window.edges = borders.edges;
+  window.score = candidate.score;
+  window.has_appearance = candidate.has_appearance;
+  window.bhattacharyya = candidate.bhattacharyya;
+  window.correlation = candidate.correlation;
+  return window;
 }
 
 }  // namespace
@@ -169,18 +185,19 @@ void TargetChoice::takeBack() {
   trace_.target = -1;
 }
 
-WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
-                                double stamp_sec) {
-  WindowObservation window;
-  window.stamp_sec = stamp_sec;
-  window.corners = borders.corners;
-  window.corner_covariance = borders.corner_covariance;
-  window.edges = borders.edges;
-  window.score = candidate.score;
-  window.has_appearance = candidate.has_appearance;
-  window.bhattacharyya = candidate.bhattacharyya;
-  window.correlation = candidate.correlation;
-  return window;
+std::optional<WindowObservation> TargetChoice::passedOver(const WindowObservation& better,
+                                                          const IsWanted& is_wanted, const View& view) const {
+  std::vector<const CandidateTrace*> others;
+  for (const CandidateTrace& other : trace_.candidates)
+    if (other.reject == RejectReason::kOutscored && is_wanted(other.quad)) others.push_back(&other);
+  std::stable_sort(others.begin(), others.end(),
+                   [](const auto* a, const auto* b) { return a->score > b->score; });
+  for (const CandidateTrace* other : others) {
+    if (Sameness(other->quad).sameWindow(better.corners)) return better;
+    const auto borders = refineBorders(view.image, {other->quad, kVariantRadiusPx}, view.camera);
+    if (borders) return observationOf(*other, *borders, view.stamp_sec);
+  }
+  return std::nullopt;
 }
 
 }  // namespace window_ingress::detection

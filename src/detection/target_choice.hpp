@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -27,9 +28,15 @@ class TargetChoice {
     double stamp_sec;
     const geometry::PinholeCamera* camera;  ///< may be null
   };
+  using IsWanted = std::function<bool(const geometry::Quadrilateral&)>;
+
   /// \param candidates are sorted here \param search_factor image pixels per pixel of the search level
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& candidates, int search_factor,
                                           const View& view);
+
+  /// See `WindowDetector::passedOver`.
+  std::optional<WindowObservation> passedOver(const WindowObservation& better, const IsWanted& is_wanted,
+                                              const View& view) const;
 
   /// Correlation of the last chosen window's surroundings with the reference's; 0 if they do not fit.
   double ringThere() const { return ring_there_; }

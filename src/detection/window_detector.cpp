@@ -1,7 +1,6 @@
 #include "window_ingress/detection/window_detector.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "detection/candidates/candidate_search.hpp"
@@ -16,11 +15,6 @@ namespace {
 
 constexpr int kSmallestSide = 16;   ///< no window can be found in a smaller image [px]
 constexpr double kSureRing = 0.85;  ///< correlation of surroundings that identifies a window surely
-
-void check(const DetectorParams& params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("detector: " + parameters::joined(faults));
-}
 
 std::string imageFault(const cv::Mat& image) {
   if (image.empty()) return "the image is empty";
@@ -40,14 +34,103 @@ struct WindowDetector::Impl {
   explicit Impl(const DetectorParams& params)
       : search(params), reference(params), choice(params, reference, trace) {}
 
-  std::optional<WindowObservation> judge(const View& view);
-  std::optional<WindowObservation> judgeFrames(const View& view);
-  std::optional<WindowObservation> judgeFrameAlone(const View& view);
-  std::optional<WindowObservation> judgeCovered(const View& view);
-  std::optional<WindowObservation> judgeSurroundings(const View& view);
-  std::optional<WindowObservation> choose(const View& view);
-  void searchOnColours();
-  void gatherAll();
+  // Chooses among the candidates that the reference has judged.
+  std::optional<WindowObservation> choose(const View& view) {
+    done(timer, Stage::kReference);
+    auto window = choice.choose(candidates, search.factor(), view);
+    done(timer, Stage::kBorders);
+    return window;
+  }
+
+  // Gathers candidates that are windows by their geometry, and those that may be.
+  void gatherAll() {
+    candidates = search.kept();
+    candidates.insert(candidates.end(), search.open().begin(), search.open().end());
+  }
+
+  std::optional<WindowObservation> judgeFrames(const View& view) {
+    candidates = search.kept();
+    const bool compared = reference.judgeFrames(view.image, view.camera, candidates);
+    if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), candidates);
+    return choose(view);
+  }
+
+  // Judges by the frame only: the background of a free-standing gate differs from the reference's.
+  std::optional<WindowObservation> judgeFrameAlone(const View& view) {
+    candidates = found_first;
+    candidates.insert(candidates.end(), search.kept().begin(), search.kept().end());
+    if (!reference.judgeFrames(view.image, view.camera, candidates)) return std::nullopt;
+    for (ScoredCandidate& candidate : candidates)
+      if (!candidate.located || !candidate.appearance) candidate.verdict = RejectReason::kDuplicate;
+    return choose(view);
+  }
+
+  std::optional<WindowObservation> judgeSurroundings(const View& view) {
+    if (!reference.judgeSurroundings(view.image, view.camera, candidates)) return std::nullopt;
+    return choose(view);
+  }
+
+  // Judges by the frame first, if there is one, because its borders are located best. The surroundings must
+  // agree. Unless they do so surely, they are searched, too, and a different window found there wins.
+  std::optional<WindowObservation> judge(const View& view) {
+    std::optional<WindowObservation> window;
+    if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
+    if (!reference.knowsSurroundings(view.image)) return window;
+    const double agreement = window ? choice.ringThere() : 0.0;
+    if (window && agreement == 0.0) choice.takeBack(), window.reset();
+    const auto ask_surroundings = [&] {
+      const auto other = judgeSurroundings(view);
+      if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
+    };
+    if (agreement < kSureRing) gatherAll(), ask_surroundings();
+    if (!window && !everywhere)
+      candidates = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
+    return window;
+  }
+
+  // Searches once more as if something stood before the window.
+  std::optional<WindowObservation> judgeCovered(const View& view) {
+    gatherAll();
+    if (everywhere) candidates.insert(candidates.end(), everywhere->begin(), everywhere->end());
+    const struct Cover {
+      explicit Cover(ReferenceJudge& judge) : judge(judge) { judge.setCovered(true); }
+      ~Cover() { judge.setCovered(false); }
+      ReferenceJudge& judge;
+    } cover(reference);
+    return judgeSurroundings(view);
+  }
+
+  // If a decoy with the frame's paint but another shape was refused, a search for the paint would find it
+  // again, less well visible.
+  void searchOnColours() {
+    const bool has_decoy =
+        std::any_of(trace.candidates.begin(), trace.candidates.end(), [](const CandidateTrace& candidate) {
+          return candidate.reject == RejectReason::kOtherFrame ||
+                 candidate.reject == RejectReason::kOtherAspect;
+        });
+    found_first = search.kept();
+    search.runOnColours(has_decoy ? std::nullopt : reference.paint(), trace);
+  }
+
+  std::optional<WindowObservation> detect(const View& view) {
+    trace.clear();
+    everywhere.reset();
+    trace.detail = imageFault(view.image);
+    if (!trace.detail.empty()) {
+      trace.outcome = RejectReason::kBadImage;
+      return std::nullopt;
+    }
+    search.run(view.image, view.camera, trace);
+    auto window = judge(view);
+    if (!window) {
+      searchOnColours();
+      window = judge(view);
+    }
+    if (!window && !reference.frameless()) window = judgeFrameAlone(view);
+    if (!window) window = judgeCovered(view);
+    explain(trace);
+    return window;
+  }
 
   CandidateSearch search;
   ReferenceJudge reference;
@@ -58,98 +141,15 @@ struct WindowDetector::Impl {
   StageTimer* timer = nullptr;
 };
 
-// Chooses among the candidates that the reference has judged.
-std::optional<WindowObservation> WindowDetector::Impl::choose(const View& view) {
-  done(timer, Stage::kReference);
-  auto window = choice.choose(candidates, search.factor(), view);
-  done(timer, Stage::kBorders);
-  return window;
-}
-
-std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const View& view) {
-  candidates = search.kept();
-  const bool compared = reference.judgeFrames(view.image, view.camera, candidates);
-  if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), candidates);
-  return choose(view);
-}
-
-// Gathers candidates that are windows by their geometry, and those that may be.
-void WindowDetector::Impl::gatherAll() {
-  candidates = search.kept();
-  const auto& open = search.open();
-  candidates.insert(candidates.end(), open.begin(), open.end());
-}
-
-// Judges by the frame only: the background of a free-standing gate differs from the reference's.
-std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(const View& view) {
-  candidates = found_first;
-  candidates.insert(candidates.end(), search.kept().begin(), search.kept().end());
-  if (!reference.judgeFrames(view.image, view.camera, candidates)) return std::nullopt;
-  for (ScoredCandidate& candidate : candidates)
-    if (!candidate.located || !candidate.appearance) candidate.verdict = RejectReason::kDuplicate;
-  return choose(view);
-}
-
-std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(const View& view) {
-  if (!reference.judgeSurroundings(view.image, view.camera, candidates)) return std::nullopt;
-  return choose(view);
-}
-
-// Judges by the frame first, if there is one, because its borders are located best. The surroundings must
-// agree. Unless they do so surely, they are searched, too, and a different window found there wins.
-std::optional<WindowObservation> WindowDetector::Impl::judge(const View& view) {
-  std::optional<WindowObservation> window;
-  if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
-  if (!reference.knowsSurroundings(view.image)) return window;
-  const double agreement = window ? choice.ringThere() : 0.0;
-  if (window && agreement == 0.0) choice.takeBack(), window.reset();
-  const auto ask_surroundings = [&] {
-    const auto other = judgeSurroundings(view);
-    if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
-  };
-  if (agreement < kSureRing) gatherAll(), ask_surroundings();
-  if (!window && !everywhere)
-    candidates = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
-  return window;
-}
-
-// Searches once more as if something stood before the window.
-std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const View& view) {
-  gatherAll();
-  if (everywhere) candidates.insert(candidates.end(), everywhere->begin(), everywhere->end());
-  const struct Cover {
-    explicit Cover(ReferenceJudge& judge) : judge(judge) { judge.setCovered(true); }
-    ~Cover() { judge.setCovered(false); }
-    ReferenceJudge& judge;
-  } cover(reference);
-  return judgeSurroundings(view);
-}
-
-// If a decoy with the frame's paint but another shape was refused, a search for the paint would find it
-// again, less well visible.
-void WindowDetector::Impl::searchOnColours() {
-  const bool has_decoy =
-      std::any_of(trace.candidates.begin(), trace.candidates.end(), [](const CandidateTrace& candidate) {
-        return candidate.reject == RejectReason::kOtherFrame ||
-               candidate.reject == RejectReason::kOtherAspect;
-      });
-  search.runOnColours(has_decoy ? std::nullopt : reference.paint(), trace);
-}
-
-WindowDetector::WindowDetector(const DetectorParams& params) {
-  check(params);
-  impl_ = std::make_unique<Impl>(params);
-}
-
+WindowDetector::WindowDetector(const DetectorParams& params)
+    : impl_(std::make_unique<Impl>(parameters::requireInRange(params, "detector"))) {}
 WindowDetector::~WindowDetector() = default;
 
 void WindowDetector::setParams(const DetectorParams& params) {
-  check(params);
-  auto next = std::make_unique<Impl>(params);
-  next->reference.learn(impl_->reference.reference());
-  StageTimer* const timer = impl_->timer;
-  impl_ = std::move(next);
-  setTimer(timer);
+  WindowDetector next(params);
+  next.shareReference(impl_->reference.reference());
+  next.setTimer(impl_->timer);
+  impl_.swap(next.impl_);
 }
 
 void WindowDetector::setTimer(StageTimer* timer) {
@@ -160,34 +160,20 @@ void WindowDetector::setTimer(StageTimer* timer) {
 void WindowDetector::setReference(const ReferenceAppearance& reference) {
   shareReference(std::make_shared<ReferenceAppearance>(reference));
 }
-
 void WindowDetector::shareReference(std::shared_ptr<const ReferenceAppearance> reference) {
   impl_->reference.learn(std::move(reference));
 }
-
 void WindowDetector::clearReference() { impl_->reference.learn(nullptr); }
 
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
                                                         const geometry::PinholeCamera* camera) {
-  impl_->trace.clear();
-  impl_->everywhere.reset();
-  if (const std::string fault = imageFault(image); !fault.empty()) {
-    impl_->trace.outcome = RejectReason::kBadImage;
-    impl_->trace.detail = fault;
-    return std::nullopt;
-  }
-  impl_->search.run(image, camera, impl_->trace);
-  const Impl::View view{image, stamp_sec, camera};
-  auto window = impl_->judge(view);
-  if (!window) {
-    impl_->found_first = impl_->search.kept();
-    impl_->searchOnColours();
-    window = impl_->judge(view);
-  }
-  if (!window && !impl_->reference.frameless()) window = impl_->judgeFrameAlone(view);
-  if (!window) window = impl_->judgeCovered(view);
-  explain(impl_->trace);
-  return window;
+  return impl_->detect({image, stamp_sec, camera});
+}
+
+std::optional<WindowObservation> WindowDetector::passedOver(
+    const WindowObservation& better, const std::function<bool(const geometry::Quadrilateral&)>& is_wanted,
+    const cv::Mat& image, const geometry::PinholeCamera* camera) const {
+  return impl_->choice.passedOver(better, is_wanted, {image, better.stamp_sec, camera});
 }
 
 std::optional<RefinedBorders> WindowDetector::bordersNear(const geometry::Quadrilateral& place,
@@ -197,7 +183,6 @@ std::optional<RefinedBorders> WindowDetector::bordersNear(const geometry::Quadri
 }
 
 StageTimer* WindowDetector::timer() const { return impl_->timer; }
-
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
 
 ReferenceAppearance referenceFromImage(const cv::Mat& image, const DetectorParams& params) {

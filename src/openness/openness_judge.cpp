@@ -62,14 +62,7 @@ OpennessJudge::OpennessJudge(const OpennessParams& params, const geometry::Openi
   parameters::throwIfAny(faults, "openness");
 }
 
-void OpennessJudge::reset() {
-  views_.clear();
-  evidence_.begin(-1.0);
-  estimate_ = KeyframeEstimate();
-  past_ = Count();
-  cells_.clear();
-  verdict_ = OpennessVerdict();
-}
+void OpennessJudge::reset() { *this = OpennessJudge(params_, needed_); }
 
 OpennessJudge::Count OpennessJudge::counted() const {
   Count all = past_;
@@ -78,18 +71,6 @@ OpennessJudge::Count OpennessJudge::counted() const {
   all.closed += estimate_.log_odds <= -kMinLogOdds;
   all.moving += estimate_.is_moving;
   return all;
-}
-
-// Ends a stretch and keeps its last result.
-void OpennessJudge::close() {
-  past_ = counted();
-  estimate_ = KeyframeEstimate();
-}
-
-void OpennessJudge::remember(const OpennessView& view) {
-  views_.push_back({view.window.stamp_sec, view.T_odom_camera});
-  while (views_.size() > kMaxViews || view.window.stamp_sec - views_.front().stamp_sec > kLongest_sec)
-    views_.pop_front();
 }
 
 void OpennessJudge::see(const OpennessView& view) {
@@ -102,10 +83,16 @@ void OpennessJudge::see(const OpennessView& view) {
       !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
     return;
   if (!agrees(geometry::undistorted(window.corners, &view.camera), view)) return;
-  remember(view);
+  views_.push_back({window.stamp_sec, view.T_odom_camera});
+  while (views_.size() > kMaxViews || window.stamp_sec - views_.front().stamp_sec > kLongest_sec)
+    views_.pop_front();
   if (window.interior.empty()) return;
   const double key_sec = window.interior.key_stamp_sec;
-  if (std::abs(key_sec - evidence_.keyStamp()) > kSameStamp_sec) close(), evidence_.begin(key_sec);
+  if (std::abs(key_sec - evidence_.keyStamp()) > kSameStamp_sec) {  // the next stretch
+    past_ = counted();
+    estimate_ = KeyframeEstimate();
+    evidence_.begin(key_sec);
+  }
   const auto key = std::find_if(views_.begin(), views_.end(), [&](const View& earlier) {
     return std::abs(earlier.stamp_sec - key_sec) < kSameStamp_sec;
   });
@@ -131,23 +118,22 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
     const bool through = passesReveal(parallax->place, eye, opening, params_.reveal_depth_m);
     evidence_.see(point.id, *parallax, through, point.beside);
   }
-  const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
-  evidence_.mark(parts, cells_);
-  estimate_ = evidence_.estimate(parts, pair->distanceM(), params_);
+  estimate_ = evidence_.estimate(pair->distanceM(), params_, cells_);
 }
 
 void OpennessJudge::conclude() {
   const Count all = counted();
   const OpeningCells::Share share = cells_.shareOf(needed_, opening_);
-  OpennessVerdict verdict;
-  verdict.log_odds = all.log_odds;
-  verdict.open_share = share.open;
-  verdict.points = estimate_.points;
-  verdict.stretches = all.open + all.closed;
-  verdict.has_depth = estimate_.depth_sigma_m > 0.0 || verdict_.has_depth;
-  const bool is_new = estimate_.depth_sigma_m > 0.0;
-  verdict.depth_behind_m = is_new ? estimate_.depth_m : verdict_.depth_behind_m;
-  verdict.depth_sigma_m = is_new ? estimate_.depth_sigma_m : verdict_.depth_sigma_m;
+  verdict_.openness = Openness::kUnknown;
+  verdict_.log_odds = all.log_odds;
+  verdict_.open_share = share.open;
+  verdict_.points = estimate_.points;
+  verdict_.stretches = all.open + all.closed;
+  if (estimate_.depth_sigma_m > 0.0) {
+    verdict_.has_depth = true;
+    verdict_.depth_behind_m = estimate_.depth_m;
+    verdict_.depth_sigma_m = estimate_.depth_sigma_m;
+  }
   const bool sure_open =
       all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
@@ -155,34 +141,34 @@ void OpennessJudge::conclude() {
   // A stretch with an uncertain depth revokes nothing.
   const bool may_be_a_room = estimate_.depth_m - estimate_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
-    verdict.openness = Openness::kClosed;
-    verdict.reason = formatted("the surface within the border moves with it: %.2f +- %.2f m behind it",
-                               verdict.depth_behind_m, verdict.depth_sigma_m);
+    verdict_.openness = Openness::kClosed;
+    verdict_.reason = formatted("the surface within the border moves with it: %.2f +- %.2f m behind it",
+                                verdict_.depth_behind_m, verdict_.depth_sigma_m);
   } else if (estimate_.is_moving && (most_moves || !sure_open)) {
-    verdict.reason = formatted("%d of %d points do not move like a static scene", estimate_.unsteady,
-                               estimate_.unsteady + estimate_.points);
+    verdict_.reason = formatted("%d of %d points do not move like a static scene", estimate_.unsteady,
+                                estimate_.unsteady + estimate_.points);
   } else if (estimate_.is_too_deep && !(sure_open && may_be_a_room)) {
-    verdict.reason = formatted("deeper than a room: %.1f m; a mirror looks the same", verdict.depth_behind_m);
+    verdict_.reason =
+        formatted("deeper than a room: %.1f m; a mirror looks the same", verdict_.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
-    verdict.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
+    verdict_.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
   } else if (all.moving > 0 && !sure_open) {
-    verdict.reason =
+    verdict_.reason =
         formatted("something moved on %d stretches of the flight, log odds %.1f", all.moving, all.log_odds);
   } else if (!sure_open) {
-    verdict.reason = formatted("%d points followed, log odds %.1f", estimate_.points, all.log_odds);
+    verdict_.reason = formatted("%d points followed, log odds %.1f", estimate_.points, all.log_odds);
   } else if (share.closed > kMaxClosed) {
-    verdict.reason =
+    verdict_.reason =
         formatted("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
   } else if (share.open < kMinOpen || share.least_quarter_open < kMinQuarter ||
              share.least_side_open < kMinSide) {
-    verdict.reason =
+    verdict_.reason =
         formatted("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {
-    verdict.openness = Openness::kOpen;
-    verdict.reason = formatted("the scene within the border lies %.1f +- %.1f m behind it",
-                               verdict.depth_behind_m, verdict.depth_sigma_m);
+    verdict_.openness = Openness::kOpen;
+    verdict_.reason = formatted("the scene within the border lies %.1f +- %.1f m behind it",
+                                verdict_.depth_behind_m, verdict_.depth_sigma_m);
   }
-  verdict_ = verdict;
 }
 
 }  // namespace window_ingress::openness

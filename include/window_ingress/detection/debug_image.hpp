@@ -5,7 +5,7 @@
 #include <string>
 
 #include "window_ingress/detection/detection_trace.hpp"
-#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
 namespace window_ingress::detection {
@@ -22,6 +22,11 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
 
 /// Writes a text, such as the relative yaw, below the target if there is room.
 void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text);
+
+/// Shows how the reference is interpreted: the inner border in green with corner 1 marked, the two bands
+/// whose colours are compared (frame orange, surround blue), everything else faded, and a line of text below.
+/// \return CV_8UC3, higher than the image by that line
+cv::Mat drawReference(const ReferenceAppearance& reference);
 
 /// Colour of a gate in these images.
 cv::Scalar colourOf(RejectReason reason);

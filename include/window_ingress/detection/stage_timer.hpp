@@ -17,7 +17,11 @@ enum class Stage {
 };
 constexpr int kStages = static_cast<int>(Stage::kBorders) + 1;
 
-const char* toString(Stage stage);
+inline const char* toString(Stage stage) {
+  constexpr std::array<const char*, kStages> kNames = {"track",    "preprocess", "edges",     "lines",
+                                                       "outlines", "candidates", "reference", "borders"};
+  return kNames[static_cast<int>(stage)];
+}
 
 /// Adds up the time of each stage of one image. The detector has no clock: a caller who wants times provides
 /// one.
@@ -27,8 +31,17 @@ class StageTimer {
 
   explicit StageTimer(Clock clock) : clock_(clock) {}
 
-  void begin();            ///< a new image
-  void done(Stage stage);  ///< all time since the last call was spent in this stage
+  /// A new image.
+  void begin() {
+    sec_.fill(0.0);
+    last_sec_ = clock_();
+  }
+  /// All time since the last call was spent in this stage.
+  void done(Stage stage) {
+    const double now_sec = clock_();
+    sec_[static_cast<int>(stage)] += now_sec - last_sec_;
+    last_sec_ = now_sec;
+  }
   double milliseconds(Stage stage) const { return 1e3 * sec_[static_cast<int>(stage)]; }
 
  private:

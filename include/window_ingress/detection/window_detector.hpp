@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -35,6 +36,12 @@ class WindowDetector {
   std::optional<WindowObservation> detect(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera = nullptr);
 
+  /// The best window that the last search passed over for a better one, of those at a wanted place. It is
+  /// `better` itself if both are borders of one window. \param image, camera as in that search
+  std::optional<WindowObservation> passedOver(
+      const WindowObservation& better, const std::function<bool(const geometry::Quadrilateral&)>& is_wanted,
+      const cv::Mat& image, const geometry::PinholeCamera* camera) const;
+
   /// Borders of the reference's window near this place: the place where the reference's surroundings match,
   /// averaged with the borders seen there. Nothing without a camera or without a match.
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const cv::Mat& image,
@@ -52,10 +59,6 @@ class WindowDetector {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Observation of a window found by a search, with its fitted borders.
-WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
-                                double stamp_sec);
 
 /// Reference from an image of the target with its frame, without given corners. The detector looks for the
 /// inner border; if it finds none, the frame is assumed to be a twentieth of the image wide.

@@ -11,39 +11,6 @@
 
 namespace window_ingress::openness {
 
-/// Ranges of D / (d + D) for a closed and an open way, seen from a distance d.
-struct DepthParts {
-  double closed_from, closed_to;  ///< next to the plane: a surface that closes it
-  double open_from, open_to;      ///< a room
-
-  static DepthParts at(double distance_m, const OpennessParams& params);
-  /// Log likelihood of the nearest open depth over that of the nearest closed one.
-  double logOdds(double part, double sigma) const;
-};
-
-/// Evidence from one point within the opening since its keyframe. All views share the errors of the keyframe,
-/// so the best view counts, not their sum. The other views must agree with it, each for the distance flown by
-/// then; a border that jumps to another edge, or texture that moves by itself, does not.
-class TrackEvidence {
- public:
-  void see(const PointParallax& parallax);
-  const PointParallax& best() const { return best_; }
-  const PointParallax& last() const { return last_; }
-  /// All views agree with a point that stands still.
-  bool isSteady(double max_sigmas) const;
-  bool isTested() const { return samples_ > 1; }
-
- private:
-  static constexpr int kSamples = 6;
-  static constexpr double kGrowth = 1.25;  ///< of the gain, from sample to sample
-  struct Sample {
-    double part, sigma, gain_px;
-  };
-  PointParallax best_, last_;
-  int views_ = 0, samples_ = 0;
-  std::array<Sample, kSamples> ring_{};
-};
-
 constexpr double kMaxLogOdds = 4.0;  ///< limit for one stretch
 
 /// Result of one stretch of the flight, from a keyframe to the next.
@@ -66,18 +33,28 @@ class KeyframeEvidence {
   /// \param through the line of sight would reach the room past the opening's inner faces
   /// \param beside cells beside the point, as in `InteriorPoint::beside`
   void see(int id, const PointParallax& parallax, bool through, std::uint64_t beside);
-  /// Enters the points that stand still into the cells.
-  void mark(const DepthParts& parts, OpeningCells& cells);
-  KeyframeEstimate estimate(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
+  /// After the points of an image. \param cells receives those of them that stand still
+  KeyframeEstimate estimate(double distance_m, const OpennessParams& params, OpeningCells& cells);
 
  private:
-  struct Entry {
-    TrackEvidence track;
-    bool through = false, current = false;
+  /// Evidence from one point within the opening since the keyframe. All views share the errors of the
+  /// keyframe, so the best view counts, not their sum. The other views must agree with it, each for the
+  /// distance flown by then; a border that jumps to another edge, or texture that moves by itself, does not.
+  struct Point {
+    void see(const PointParallax& parallax);
+    bool isTested() const { return samples > 1; }
+    bool isSteady() const;  ///< all views agree with a point that stands still; for a tested point
+
+    static constexpr int kSamples = 6;
+    PointParallax best;
+    std::array<PointParallax, kSamples> ring;  ///< the newest samples, views of growing gain
+    int samples = 0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< in the last view
+    bool through = false, is_new = false;
     std::uint64_t beside = 0;
   };
   double key_stamp_sec_ = -1.0;
-  std::vector<Entry> entries_;  // by the point's number
+  std::vector<Point> points_;  // by the point's number
 };
 
 }  // namespace window_ingress::openness

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 
 #include "window_ingress/geometry/opening.hpp"
@@ -14,9 +13,6 @@ namespace window_ingress::openness {
 class OpeningCells {
  public:
   static constexpr int kSide = 6;
-  struct Range {
-    int first, last;  ///< both included
-  };
 
   /// \param place within the opening, 0 to 1, right and down; a place outside is ignored
   void see(const Eigen::Vector2d& place, double log_odds);
@@ -37,17 +33,16 @@ class OpeningCells {
   Share shareOf(const geometry::OpeningSize& needed, const geometry::OpeningSize& opening) const;
 
  private:
-  double openOf(const Range& across, const Range& down) const;
-  bool isClosed(int x, int y) const;
-  bool isOpen(int x, int y) const;
-  bool isBetweenOpen(int x, int y) const;
+  template <typename Value>
+  using Grid = Eigen::Array<Value, kSide, kSide, Eigen::RowMajor>;
+
   static constexpr float kMax = 12.0f;
   static constexpr float kSure = 2.0f;  ///< log odds at which a cell is open or closed
   static constexpr int kMinBeside = 3;  // points in one image
   static constexpr int kMinImages = 5;
-  std::array<float, kSide * kSide> open_{}, closed_{};
-  std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, in this image
-  std::array<int, kSide * kSide> images_{};            // in which only deep points were beside the cell
+  Grid<float> open_ = Grid<float>::Zero(), closed_ = Grid<float>::Zero();
+  Grid<int> deep_ = Grid<int>::Zero(), shallow_ = Grid<int>::Zero();  // points beside the cell, in this image
+  Grid<int> images_ = Grid<int>::Zero();  // in which only deep points were beside the cell
 };
 
 }  // namespace window_ingress::openness

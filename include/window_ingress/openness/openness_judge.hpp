@@ -53,11 +53,9 @@ class OpennessJudge {
     int open = 0, closed = 0;  ///< stretches with this verdict
     int moving = 0;            ///< stretches in which too many points moved
   };
-  void close();
   void compare(const OpennessView& view, const Eigen::Isometry3d& T_odom_camera_key);
   void conclude();
   Count counted() const;
-  void remember(const OpennessView& view);
 
   OpennessParams params_;
   geometry::OpeningSize needed_, opening_;

@@ -16,10 +16,6 @@ struct SeenBorder {
   std::array<Eigen::Matrix2d, 4> covariance;
 };
 
-/// The homography between two images of a plane, from four corners in both. Nothing if they determine none.
-std::optional<Eigen::Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
-                                                 const geometry::Quadrilateral& to);
-
 /// Depth of a point behind the plane, from two images.
 struct PointParallax {
   /// Depth D behind the plane over the point's distance from the key camera: D / (d + D), 0 in the plane, 1

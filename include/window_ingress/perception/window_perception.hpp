@@ -18,10 +18,15 @@ constexpr double kExpectationLastsSec = 0.5;
 class WindowPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  WindowPerception(const detection::DetectorParams& detector, const openness::InteriorKltParams& interior);
+  WindowPerception(const detection::DetectorParams& detector, const openness::InteriorKltParams& interior)
+      : tracker_(detector), interior_(interior) {}
 
   /// The target in this image, its interior included; nothing if it is not seen, and `trace()` then says why.
-  const std::optional<detection::WindowObservation>& update(const detection::TrackInput& frame);
+  const std::optional<detection::WindowObservation>& update(const detection::TrackInput& frame) {
+    window_ = tracker_.update(frame);
+    if (window_) interior_.follow(frame.image, *window_);
+    return window_;
+  }
 
   /// The result of the last update.
   const std::optional<detection::WindowObservation>& window() const { return window_; }
@@ -33,7 +38,11 @@ class WindowPerception {
   void setReference(const detection::ReferenceAppearance& reference) { tracker_.setReference(reference); }
   void setTimer(detection::StageTimer* timer) { tracker_.setTimer(timer); }
   /// Forgets what was seen; parameters and reference stay.
-  void reset();
+  void reset() {
+    tracker_.reset();
+    interior_.reset();
+    window_.reset();
+  }
 
  private:
   detection::WindowTracker tracker_;

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "adapters/images/image_files.hpp"
-#include "window_ingress/detection/reference_drawing.hpp"
+#include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/text/text.hpp"
 

@@ -17,17 +17,13 @@ namespace window_ingress::detection {
 /// In the same light, a window that matches clearly less is another one.
 class AppearanceGate {
  public:
-  static constexpr double kMargin =
-      0.2;  ///< a window that matches less than the target by this distance is another one
+  static constexpr double kMargin = 0.2;     ///< a window further from the reference by this is another one
   static constexpr double kValidSec = 10.0;  ///< a comparison is valid for this many seconds [s]
 
-  void forget() { *this = AppearanceGate(); }
   /// Bhattacharyya distance of a confirmed track, at a comparison.
   void note(double distance, double stamp_sec) {
-    if (!std::isfinite(distance) || !std::isfinite(stamp_sec)) return;
-    if (!allows(distance, stamp_sec)) return;
-    const bool is_gap = std::abs(stamp_sec - last_sec_) > kValidSec;
-    if (is_gap) forget();
+    if (!std::isfinite(distance) || !std::isfinite(stamp_sec) || !allows(distance, stamp_sec)) return;
+    if (std::abs(stamp_sec - last_sec_) > kValidSec) *this = AppearanceGate();
     smoothed_ += (notes_ == 0 ? 1.0 : kWeight) * (distance - smoothed_);
     last_sec_ = stamp_sec;
     if (++notes_ >= kEnough) best_ = std::min(best_, smoothed_);
@@ -45,7 +41,6 @@ class AppearanceGate {
  private:
   static constexpr int kEnough = 3;       // comparisons
   static constexpr double kWeight = 0.3;  // of the last one
-
   static constexpr double kUnknown = 2.0;
 
   double best_ = kUnknown, smoothed_ = 0.0, last_sec_ = 0.0;
@@ -61,49 +56,50 @@ class AppearanceMonitor {
   void setParams(const DetectorParams& params) { params_ = params; }
   /// \param reference null: no comparison
   void setReference(std::shared_ptr<ReferenceAppearance> reference) { reference_ = std::move(reference); }
+  void forget() { gate_ = AppearanceGate(); }  ///< how well the target matched
 
   /// Another window is tracked.
   void start() {
     restart();
     frames_to_comparison_ = params_.track.appearance_every;
   }
-
   void restart() { unlike_ = false; }  ///< the same window, just seen by a search
 
   /// To be called for each image with all sides in view; compares every `TrackParams::appearance_every`.
-  /// \param window as observed; receives the appearance \return false: it does not match
-  bool look(const TrackInput& input, WindowObservation& window) {
-    compared_ = false;
+  /// \param window as observed; receives the appearance
+  /// \param is_confirmed it is the target for sure \param is_certain its borders are certain, too
+  /// \return false: it does not match
+  bool look(const TrackInput& input, WindowObservation& window, bool is_confirmed, bool is_certain) {
     if (!reference_ || --frames_to_comparison_ > 0) return true;
     frames_to_comparison_ = params_.track.appearance_every;
     if (!window.whole()) return true;
     const auto match = reference_->compare(input.image, window.corners, params_.appearance);
     window.has_appearance = match.has_value();
     window.bhattacharyya = match ? match->distance : 0.0;
-    compared_ = window.has_appearance;
     unlike_ = match && !match->isLike();
+    if (match && is_confirmed) {
+      if (is_certain && !unlike_)
+        reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
+      gate_.note(window.bhattacharyya, input.stamp_sec);
+    }
     return !unlike_;
   }
 
-  /// Adapts the reference in part, right after a `look` that agreed.
-  void adapt(const TrackInput& input, const WindowObservation& window) {
-    reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
+  /// False for a window that a search found if it matches clearly less than the target did.
+  bool allows(const WindowObservation& found) const {
+    return !found.has_appearance || gate_.allows(found.bhattacharyya, found.stamp_sec);
   }
-
   bool isKnown() const { return reference_ != nullptr; }  ///< there is a reference
-  bool hasCompared() const { return compared_; }          ///< `look` has compared the last image
-  bool hasAgreed() const {
-    return compared_ && !unlike_;
-  }                                          ///< `look` has compared the last image, and it matched
-  bool isUnlike() const { return unlike_; }  ///< the last comparison did not match
+  bool isUnlike() const { return unlike_; }               ///< the last comparison did not match
 
  private:
   static constexpr double kAdaptation = 0.1;  ///< part of a difference that one comparison takes over
 
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
+  AppearanceGate gate_;
   int frames_to_comparison_ = 0;
-  bool unlike_ = false, compared_ = false;
+  bool unlike_ = false;
 };
 
 }  // namespace window_ingress::detection

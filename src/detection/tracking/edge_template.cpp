@@ -120,11 +120,6 @@ void EdgeTemplate::learn(const EdgeProfiles& profiles, const OffsetLine& border,
       slope = keep * slope + (1.0f - keep) * 0.5f * (v[2] - v[0]);
     }
   known_ = true, channels_ = channels, half_ = half, size_px_ = size_px;
-  summarise();
-}
-
-void EdgeTemplate::summarise() {
-  const int size = 2 * half_ + 1;
   Eigen::Vector3f change;
   for (int c = 0; c < 3; ++c) change[c] = 2.0f * slopes_[(channels_ == 1 ? 0 : c) * size + half_];
   const float contrast = change.norm();

@@ -40,7 +40,6 @@ class EdgeTemplate {
  private:
   using Pattern = std::array<float, 3 * (2 * kMaxHalf + 1)>;
   Pattern zoomed(double zoom) const;
-  void summarise();
 
   bool known_ = false;
   int channels_ = 1, half_ = 0;

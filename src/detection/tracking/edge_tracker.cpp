@@ -15,44 +15,8 @@ constexpr int kProfiles = 18;           ///< across each side, to find the borde
 constexpr int kFineProfiles = 40;       ///< across each side to fit its line
 constexpr double kMinSimilarity = 0.5;  ///< least correlation of a side's profile with the memory, 0 to 1
 constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must lie on its line
-constexpr double kMinStretch =
-    0.06;  ///< shortest visible part of a side that is tracked [longer image sides]
+constexpr double kMinStretch = 0.06;    ///< least visible part of a side, to track it [longer image sides]
 constexpr int kViewSteps = 64;
-
-// Clips the stretch to the band between two parallels to an axis.
-bool clip(double from, double span, double low, double high, double& begin, double& end) {
-  if (std::abs(span) < 1e-12) return from >= low && from <= high;
-  const double a = (low - from) / span, b = (high - from) / span;
-  begin = std::max(begin, std::min(a, b));
-  end = std::min(end, std::max(a, b));
-  return begin < end;
-}
-
-// Limits the radius, because a lens model folds points far outside the image back into it.
-double largestRadius(const cv::Size& image, const geometry::PinholeCamera& lens) {
-  double radius = 0.0;
-  for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(image.width - 1, 0), Vector2d(0, image.height - 1),
-                                 Vector2d(image.width - 1, image.height - 1)})
-    radius = std::max(radius, (lens.undistort(corner) - Vector2d(lens.cx, lens.cy)).norm());
-  return radius;
-}
-
-std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, double margin,
-                                   const geometry::PinholeCamera& lens) {
-  const double radius = largestRadius(image, lens);
-  const Vector2d step = (whole.to - whole.from) / kViewSteps;
-  int best = 0, best_end = -1, run = 0;
-  for (int i = 0; i <= kViewSteps; ++i) {
-    const Vector2d p = whole.from + i * step;
-    const bool seen = (p - Vector2d(lens.cx, lens.cy)).norm() <= radius &&
-                      geometry::isInside(lens.distort(p), image.width, image.height, margin);
-    run = seen ? run + 1 : 0;
-    if (run > best) best = run, best_end = i;
-  }
-  if (best < 2) return std::nullopt;
-  return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
-}
-
 constexpr double kNominalSidePx = 640.0;  // pixel parameters hold up to this longer image side
 constexpr double kViewMarginPx = 3.0;     // of a side from the border of the image
 constexpr double kMaxOfASide = 0.8;       // part of a short side that must be in the image
@@ -65,20 +29,51 @@ constexpr double kApartRate = 0.3;      // part of that distance that one alignm
 constexpr double kFoundWithinPx = 4.0;  // greatest distance of an edge from the border to track
 constexpr int kMinFollowed = 6;
 
-int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
+// Clips the stretch to the band between two parallels to an axis.
+bool clip(double from, double span, double low, double high, double& begin, double& end) {
+  if (std::abs(span) < 1e-12) return from >= low && from <= high;
+  const double a = (low - from) / span, b = (high - from) / span;
+  begin = std::max(begin, std::min(a, b));
+  end = std::min(end, std::max(a, b));
+  return begin < end;
+}
 
-double scaleOf(const cv::Mat& image) { return std::max(1.0, longerSide(image) / kNominalSidePx); }
+// The ideal image's radius; a lens model folds points further outside back into the image.
+double largestRadius(const cv::Mat& image, const geometry::PinholeCamera& lens) {
+  double radius = 0.0;
+  for (const int x : {0, image.cols - 1})
+    for (const int y : {0, image.rows - 1})
+      radius = std::max(radius, (lens.undistort(Vector2d(x, y)) - Vector2d(lens.cx, lens.cy)).norm());
+  return radius;
+}
+
+std::optional<Stretch> throughLens(const Stretch& whole, const cv::Mat& image, double margin,
+                                   const geometry::PinholeCamera& lens) {
+  const double radius = largestRadius(image, lens);
+  const Vector2d step = (whole.to - whole.from) / kViewSteps;
+  int best = 0, best_end = -1, run = 0;
+  for (int i = 0; i <= kViewSteps; ++i) {
+    const Vector2d p = whole.from + i * step;
+    const bool seen = (p - Vector2d(lens.cx, lens.cy)).norm() <= radius &&
+                      geometry::isInside(lens.distort(p), image.cols, image.rows, margin);
+    run = seen ? run + 1 : 0;
+    if (run > best) best = run, best_end = i;
+  }
+  if (best < 2) return std::nullopt;
+  return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
+}
+
+double scaleOf(const LensImage& view) { return std::max(1.0, view.longerSide() / kNominalSidePx); }
 
 }  // namespace
 
-std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image, double margin_px,
-                                     const geometry::PinholeCamera* lens) {
+std::optional<Stretch> stretchInView(const Stretch& whole, const LensImage& view, double margin_px) {
   const Vector2d span = whole.to - whole.from;
   if (!whole.from.allFinite() || !whole.to.allFinite() || !(span.squaredNorm() > 0.0)) return std::nullopt;
-  if (lens) return throughLens(whole, image, margin_px, *lens);
+  if (view.lens) return throughLens(whole, view.image, margin_px, *view.lens);
   double begin = 0.0, end = 1.0;
-  if (!clip(whole.from.x(), span.x(), margin_px, image.width - 1 - margin_px, begin, end) ||
-      !clip(whole.from.y(), span.y(), margin_px, image.height - 1 - margin_px, begin, end))
+  if (!clip(whole.from.x(), span.x(), margin_px, view.image.cols - 1 - margin_px, begin, end) ||
+      !clip(whole.from.y(), span.y(), margin_px, view.image.rows - 1 - margin_px, begin, end))
     return std::nullopt;
   return Stretch{whole.from + begin * span, whole.from + end * span};
 }
@@ -92,35 +87,35 @@ Stretch EdgeTracker::edgeOf(const Stretch& side, double size_px) {
   return {side.from - (at - end) * outwards, side.to - (at + end) * outwards};
 }
 
-FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                                   const Stretch& predicted, double size_px, double sigma_px) {
+FollowedBorder EdgeTracker::follow(const LensImage& view, const Stretch& predicted, double size_px,
+                                   double sigma_px) {
   FollowedBorder border;
-  const auto stretch = stretchInView(edgeOf(predicted, size_px), image.size(), kViewMarginPx, lens);
+  const auto stretch = stretchInView(edgeOf(predicted, size_px), view, kViewMarginPx);
   if (!stretch) return border;
-  const double wanted = std::min(kMinStretch * longerSide(image), kMaxOfASide * predicted.length());
+  const double wanted = std::min(kMinStretch * view.longerSide(), kMaxOfASide * predicted.length());
   border.in_view = stretch->length() >= wanted;
   border.sought = border.in_view && memory_.known();
   if (!border.sought) return border;
-  const double pixel = pixelAcross(lens, stretch->from, stretch->to),
-               most = std::max(kMinReachPx, kReach * longerSide(image));
+  const double pixel = pixelAcross(view.lens, stretch->from, stretch->to),
+               most = std::max(kMinReachPx, kReach * view.longerSide());
   const int reach =
       static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px / pixel + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinFollowed, kProfiles);
-  coarse_.sample(image, lens, {stretch->from, stretch->to, count, kEndMargin, reach + half_px_ + 2, true});
+  coarse_.sample(view.image, view.lens,
+                 {stretch->from, stretch->to, count, kEndMargin, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px / coarse_.pixel());
   border.similarity = match ? match->similarity : 0.0;
-  border.fitted =
-      match && match->similarity >= kMinSimilarity && fit(image, lens, match->line, size_px, border);
+  border.fitted = match && match->similarity >= kMinSimilarity && fit(view, match->line, size_px, border);
   return border;
 }
 
-bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
-                      double size_px, FollowedBorder& border) {
-  const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
+bool EdgeTracker::fit(const LensImage& view, const OffsetLine& coarse, double size_px,
+                      FollowedBorder& border) {
+  const double scale = scaleOf(view), half = 0.5 * coarse_.length(),
                radius_px = scale * SubpixelBorderLimits().radius_px;
   const int count =
       std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kEndMargin)), kMinFollowed, kFineProfiles);
-  fine_.sample(image, lens,
+  fine_.sample(view.image, view.lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count,
                 kEndMargin, static_cast<int>(std::ceil(radius_px)) + 5});
   if (!soft_) soft_ = isColourSoft(fine_);
@@ -164,29 +159,26 @@ bool EdgeTracker::keepApart(const Line& border, double size_px, double furthest_
   return true;
 }
 
-void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
-                        double size_px) {
-  half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
-  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kEndMargin, half_px_ + 3, true});
+void EdgeTracker::learn(const LensImage& view, const Stretch& border, double size_px) {
+  half_px_ = std::clamp(static_cast<int>(std::lround(kReach * view.longerSide())), 4, EdgeTemplate::kMaxHalf);
+  coarse_.sample(view.image, view.lens, {border.from, border.to, kProfiles, kEndMargin, half_px_ + 3, true});
   apart_ = {};
   soft_.reset();
   memory_.clear();
   memory_.learn(coarse_, {}, half_px_, size_px / coarse_.pixel(), 1.0);
 }
 
-void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
-                            double size_px) {
-  const double scale = scaleOf(image), radius_px = kFoundWithinPx * scale, half = 0.5 * border.length();
+void EdgeTracker::learnNear(const LensImage& view, const Stretch& border, double size_px) {
+  const double scale = scaleOf(view), radius_px = kFoundWithinPx * scale, half = 0.5 * border.length();
   const int count = std::clamp(static_cast<int>(border.length()), kMinFollowed, kFineProfiles);
-  fine_.sample(image, lens,
+  fine_.sample(view.image, view.lens,
                {border.from, border.to, count, kEndMargin, static_cast<int>(std::ceil(radius_px)) + 4});
   FittedBorder edge;
   const SubpixelBorderLimits limits{radius_px, kPriorPx * scale, kRoughPx * scale};
   if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run(limits, edge) ||
       edge.inliers < kMinInliers * count || std::abs(edge.line.offset) < kSameApartPx)
-    return learn(image, lens, border, size_px);
-  learn(image, lens, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))},
-        size_px);
+    return learn(view, border, size_px);
+  learn(view, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))}, size_px);
   apart_.offset = -fine_.pixel() * edge.line.offset / (size_px * size_px);
   apart_.slope = -fine_.pixel() * edge.line.slope;
 }

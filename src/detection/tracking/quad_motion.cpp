@@ -17,16 +17,9 @@ constexpr double kMinSigmaPx = 0.05;
 constexpr double kGain = 0.5;           // correction of the velocity by the prediction's error
 constexpr double kUnknownMotion = 3.0;  // factor of the first prediction's spread, without velocity
 
-Vector8d asVector(const geometry::Quadrilateral& quad) {
-  Vector8d v;
-  for (int i = 0; i < 4; ++i) v.segment<2>(2 * i) = quad[i];
-  return v;
-}
-
-geometry::Quadrilateral asQuad(const Vector8d& v) {
-  geometry::Quadrilateral quad;
-  for (int i = 0; i < 4; ++i) quad[i] = v.segment<2>(2 * i);
-  return quad;
+// A quadrilateral's coordinates lie one behind the other.
+Eigen::Map<const Vector8d> asVector(const geometry::Quadrilateral& quad) {
+  return Eigen::Map<const Vector8d>(quad[0].data());
 }
 
 // Columns: corner movements of about one pixel, for each kind of change.
@@ -73,38 +66,27 @@ void QuadMotion::predict(const Eigen::Matrix3d& turn, double elapsed_sec, const 
       predicted_, {factor * spread.place_px, factor * spread.reshape_px, factor * spread.warp_px});
 }
 
-QuadMotion::Row QuadMotion::offsetRow(int side, const Line& line) const {
+void QuadMotion::correct(int side, const Line& line) {
+  // By its offset at the line's point.
   const Vector2d from = corner(side), span = corner(side + 1) - from;
   const double t = (line.point - from).dot(span) / std::max(1.0, span.squaredNorm());
-  Row row;
-  row.weights.segment<2>(2 * side) = (1.0 - t) * line.normal;
-  row.weights.segment<2>(2 * ((side + 1) % 4)) = t * line.normal;
-  row.rest = -line.distance(from + t * span);
-  row.variance = std::pow(std::max(kMinSigmaPx, line.sigma_px), 2);
-  return row;
+  correct(side, (1.0 - t) * line.normal, t * line.normal, -line.distance(from + t * span),
+          std::max(kMinSigmaPx, line.sigma_px));
+  // By its direction.
+  const Vector2d turned = corner(side + 1) - corner(side);
+  const double length = std::max(1.0, turned.norm());
+  correct(side, -line.normal / length, line.normal / length, -line.normal.dot(turned) / length,
+          std::max(kMinSigmaPx / length, line.sigma_rad));
 }
 
-QuadMotion::Row QuadMotion::slopeRow(int side, const Line& line) const {
-  const Vector2d span = corner(side + 1) - corner(side);
-  const double length = std::max(1.0, span.norm());
-  Row row;
-  row.weights.segment<2>(2 * side) = -line.normal / length;
-  row.weights.segment<2>(2 * ((side + 1) % 4)) = line.normal / length;
-  row.rest = -line.normal.dot(span) / length;
-  row.variance = std::pow(std::max(kMinSigmaPx / length, line.sigma_rad), 2);
-  return row;
-}
-
-void QuadMotion::correct(const Row& row) {
-  const Vector8d spread = covariance_ * row.weights;
-  const double variance = row.weights.dot(spread) + row.variance;
-  corners_ += spread * (row.rest / variance);
+void QuadMotion::correct(int side, const Vector2d& from, const Vector2d& to, double rest, double sigma) {
+  Vector8d weights = Vector8d::Zero();
+  weights.segment<2>(2 * side) = from;
+  weights.segment<2>(2 * ((side + 1) % 4)) = to;
+  const Vector8d spread = covariance_ * weights;
+  const double variance = weights.dot(spread) + std::pow(sigma, 2);
+  corners_ += spread * (rest / variance);
   covariance_ -= spread * spread.transpose() / variance;
-}
-
-void QuadMotion::correct(int side, const Line& line) {
-  correct(offsetRow(side, line));
-  correct(slopeRow(side, line));
 }
 
 void QuadMotion::settle(double elapsed_sec) {
@@ -116,7 +98,7 @@ void QuadMotion::settle(double elapsed_sec) {
 
 void QuadMotion::place(const geometry::Quadrilateral& quad) { corners_ = asVector(quad); }
 
-geometry::Quadrilateral QuadMotion::quad() const { return asQuad(corners_); }
+geometry::Quadrilateral QuadMotion::quad() const { return {corner(0), corner(1), corner(2), corner(3)}; }
 
 double QuadMotion::sigmaAcross(int side) const {
   const Vector2d span = corner(side + 1) - corner(side);

@@ -53,13 +53,8 @@ class QuadMotion {
   double sigmaAcross(int side) const;
 
  private:
-  struct Row {
-    Vector8d weights = Vector8d::Zero();
-    double rest = 0.0, variance = 1.0;
-  };
-  Row offsetRow(int side, const Line& line) const;
-  Row slopeRow(int side, const Line& line) const;
-  void correct(const Row& row);
+  /// By a measurement that weighs the two corners of a side. \param rest it less its prediction
+  void correct(int side, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double rest, double sigma);
   Eigen::Vector2d corner(int i) const { return corners_.segment<2>(2 * (i % 4)); }
 
   Vector8d corners_ = Vector8d::Zero(), velocity_ = Vector8d::Zero();

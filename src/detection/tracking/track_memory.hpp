@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
@@ -22,7 +23,6 @@ class TrackMemory {
 
   /// The window is tracked in this frame.
   void follow(double stamp_sec) {
-    known_ = true;
     ++followed_;
     last_sec_ = stamp_sec;
   }
@@ -30,13 +30,11 @@ class TrackMemory {
   /// A search found a window: keeps the number for the same window, else takes a new one.
   void found(bool is_same, double stamp_sec) {
     if (!is_same) ++id_, followed_ = 0;
-    known_ = true;
     last_sec_ = stamp_sec;
   }
 
   /// The window's place is known from elsewhere: waits for it.
   void expect(double stamp_sec) {
-    known_ = true;
     followed_ = std::max(followed_, kSettled);
     last_sec_ = stamp_sec;
   }
@@ -44,7 +42,9 @@ class TrackMemory {
   /// Another window is the target from now on.
   void change() { ++id_, forget(); }
   /// True while the old window's place is known well enough to identify it.
-  bool remembers(double stamp_sec) const { return known_ && stamp_sec - last_sec_ <= params_.reacquire_sec; }
+  bool remembers(double stamp_sec) const {
+    return last_sec_ && stamp_sec - *last_sec_ <= params_.reacquire_sec;
+  }
 
   /// True if the window at `seen` is the one expected at `expected`: its centre within the gate, its size
   /// similar.
@@ -56,16 +56,15 @@ class TrackMemory {
 
   /// True if the window was tracked long enough not to be replaced while it is remembered.
   bool settled() const { return followed_ >= kSettled; }
-  void forget() { known_ = false, followed_ = 0; }
+  void forget() { last_sec_.reset(), followed_ = 0; }
 
  private:
   static constexpr double kSizeRatio = 1.35;  // of one window in two images
 
   TrackParams params_;
   std::uint32_t id_ = 0;
-  bool known_ = false;
   int followed_ = 0;
-  double last_sec_ = 0.0;
+  std::optional<double> last_sec_;  // in view, or where it is expected to be
 };
 
 }  // namespace window_ingress::detection

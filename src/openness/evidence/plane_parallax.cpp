@@ -13,41 +13,31 @@ using Eigen::Vector3d;
 constexpr double kMinDistance_m = 0.2;
 constexpr double kMinGain_px = 0.5;
 
-// How much each corner's error moves a point of the plane.
-Eigen::Vector4d weightsAt(const Vector2d& place) {
-  const double u = place.x(), v = place.y();
-  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+bool isUsable(const geometry::Quadrilateral& corners) {
+  return geometry::isFinite(corners) && geometry::isConvex(corners);
 }
 
 }  // namespace
-
-std::optional<Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
-                                          const geometry::Quadrilateral& to) {
-  if (!geometry::isFinite(from) || !geometry::isFinite(to) || !geometry::isConvex(from) ||
-      !geometry::isConvex(to))
-    return std::nullopt;
-  const Matrix3d H = geometry::UnitSquare(to).matrix() * geometry::UnitSquare(from).matrix().inverse();
-  if (!H.allFinite()) return std::nullopt;
-  return Matrix3d(H / H(2, 2));
-}
 
 std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamera& camera,
                                                     const SeenBorder& key, const SeenBorder& now,
                                                     const Eigen::Isometry3d& T_camera_window_key,
                                                     const Eigen::Isometry3d& T_camera_window_now,
                                                     const Errors& errors) {
-  const auto H = homographyBetween(key.corners, now.corners);
-  if (!H || !T_camera_window_key.matrix().allFinite() || !T_camera_window_now.matrix().allFinite())
+  if (!isUsable(key.corners) || !isUsable(now.corners) || !T_camera_window_key.matrix().allFinite() ||
+      !T_camera_window_now.matrix().allFinite())
     return std::nullopt;
   PlaneParallax pair(now.corners);
+  Matrix3d H = pair.opening_.matrix() * geometry::UnitSquare(key.corners).matrix().inverse();
+  H /= H(2, 2);
   pair.normal_ = T_camera_window_key.linear().col(0);
   pair.distance_m_ = pair.normal_.dot(T_camera_window_key.translation());
   const double now_m = T_camera_window_now.linear().col(0).dot(T_camera_window_now.translation());
-  const double determinant = H->determinant();
-  if (!(pair.distance_m_ > kMinDistance_m && now_m > kMinDistance_m && determinant > 0.0))
+  const double determinant = H.determinant();
+  if (!(pair.distance_m_ > kMinDistance_m && now_m > kMinDistance_m && determinant > 0.0) || !H.allFinite())
     return std::nullopt;
   // The homography of calibrated rays, R + t n^T / d, has the determinant d_now / d.
-  pair.H_ = std::cbrt(now_m / pair.distance_m_ / determinant) * *H;
+  pair.H_ = std::cbrt(now_m / pair.distance_m_ / determinant) * H;
   const Vector3d way = (T_camera_window_now * T_camera_window_key.inverse()).translation();
   pair.epipole_ = camera.K() * way / pair.distance_m_;
   pair.K_inverse_ = camera.K().inverse();
@@ -60,7 +50,8 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
 
 // Variance of this point along a direction, due to the borders of both images.
 double PlaneParallax::borderVariance(const Vector2d& place, const Vector2d& along) const {
-  const Eigen::Vector4d weights = weightsAt(place);
+  const double u = place.x(), v = place.y();
+  const Eigen::Vector4d weights((1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v);  // of each corner
   const double common = std::pow(errors_.border_sigma_px, 2);
   double variance = 0.5 * common * (1.0 + growth_ * growth_);
   for (int i = 0; i < 4; ++i) {

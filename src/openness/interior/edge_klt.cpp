@@ -66,7 +66,7 @@ void SlopeImage::take(const cv::Mat& grey) {
 
 std::vector<EdgePoint> SlopeImage::steepest(const cv::Rect& inner, int spacing_px, double least_slope,
                                             std::size_t most) const {
-  std::vector<std::pair<float, EdgePoint>> found;
+  std::vector<EdgePoint> edges;
   for (int top = inner.y; top < inner.y + inner.height; top += spacing_px)
     for (int left = inner.x; left < inner.x + inner.width; left += spacing_px) {
       const cv::Rect block = cv::Rect(left, top, spacing_px, spacing_px) & inner;
@@ -76,14 +76,10 @@ std::vector<EdgePoint> SlopeImage::steepest(const cv::Rect& inner, int spacing_p
       if (slope < least_slope) continue;
       place += block.tl();
       const auto steep = static_cast<float>(slope);
-      found.push_back({steep,
-                       {cv::Point2f(static_cast<float>(place.x), static_cast<float>(place.y)),
-                        {dx_.at<float>(place) / steep, dy_.at<float>(place) / steep}}});
+      edges.push_back({place, {dx_.at<float>(place) / steep, dy_.at<float>(place) / steep}, steep});
     }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (found.size() > most) found.resize(most);
-  std::vector<EdgePoint> edges;
-  for (const auto& [slope, edge] : found) edges.push_back(edge);
+  std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.slope > b.slope; });
+  if (edges.size() > most) edges.resize(most);
   return edges;
 }
 

@@ -9,6 +9,7 @@ namespace window_ingress::openness {
 /// A point on an edge; its position is known only across the edge.
 struct EdgePoint {
   cv::Point2f place, normal;  ///< the normal has length 1 and points to the brighter side
+  float slope = 0.0f;         ///< [grey levels per pixel]
 };
 
 /// Slopes of a grey image.

@@ -61,8 +61,9 @@ Eigen::Vector2d mapped(const cv::Matx33d& H, const cv::Point2f& p) {
 
 double lengthOf(const cv::Point2f& way) { return std::hypot(way.x, way.y); }
 
-bool isUsable(const WindowObservation& window) {
-  return window.whole() && std::isfinite(window.stamp_sec) && geometry::isFinite(window.corners) &&
+bool isUsable(const cv::Mat& image, const WindowObservation& window) {
+  return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3) && window.whole() &&
+         std::isfinite(window.stamp_sec) && geometry::isFinite(window.corners) &&
          geometry::isConvex(window.corners);
 }
 
@@ -78,21 +79,165 @@ struct InteriorKltTracker::Impl {
 
   explicit Impl(const InteriorKltParams& p) : params(p) {}
 
-  bool isOther(const WindowObservation& window) const {
-    return !has_key || window.target_id != target_id || !(window.stamp_sec > last_sec) ||
-           window.stamp_sec - tracks.key_stamp_sec > 2.0 * kMaxKeyframeAge_sec;
+  void follow(const cv::Mat& image, WindowObservation& window) {
+    const bool is_other = !has_key || window.target_id != target_id || !(window.stamp_sec > last_sec) ||
+                          window.stamp_sec - tracks.key_stamp_sec > 2.0 * kMaxKeyframeAge_sec;
+    last_sec = window.stamp_sec;
+    if (is_other) return takeKey(image, window);
+    rectify(image, window.corners);
+    flow();
+    report(window);
+    if (isWornOut(window)) takeKey(image, window);
   }
-  void rectify(const cv::Mat& image, const Quadrilateral& corners);
-  void takeKey(const cv::Mat& image, const WindowObservation& window);
-  void findPoints();
-  void chooseChannel(const cv::Mat& image, const Quadrilateral& corners);
-  void findEdges(const cv::Rect& inner);
-  void flow();
-  void flowCorners();
-  bool flowAcross(Track& track) const;
-  bool lies(const cv::Point2f& p) const;
-  void report(WindowObservation& window);
-  bool isWornOut(const WindowObservation& window) const;
+
+  void takeKey(const cv::Mat& image, const WindowObservation& window) {
+    has_key = false;
+    size = rectifiedSize(window.corners, params.max_side_px);
+    if (std::min(size.width, size.height) < kMinSide_px) return;
+    if (image.channels() == 3) chooseChannel(image, window.corners);
+    rectify(image, window.corners);
+    cv::buildOpticalFlowPyramid(rectified, key_pyramid, {kReach, kReach}, kLevels, true);
+    key_to_image = to_rectified.inv();
+    key_scale = scaleOf(window.corners);
+    tracks.key_stamp_sec = window.stamp_sec;
+    tracks.key_corners = window.corners;
+    tracks.key_covariance = window.corner_covariance;
+    target_id = window.target_id;
+    findPoints();
+    found = points.size();
+    has_key = true;
+  }
+
+  // Chooses the channel with the most edges: a brown cupboard before a blue wall may be as bright as the
+  // wall.
+  void chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
+    int most = -1, best = 1;
+    for (channel = 0; channel < 3; ++channel) {
+      rectify(image, corners);
+      slopes.take(rectified);
+      const int steep = slopes.steeperThan(kMinEdgeSlope);
+      if (steep > most) most = steep, best = channel;
+    }
+    channel = best;
+  }
+
+  void rectify(const cv::Mat& image, const Quadrilateral& corners) {
+    to_rectified = rectification(corners, size);
+    const cv::Rect part = cv::boundingRect(toCv(corners)) & cv::Rect(0, 0, image.cols, image.rows);
+    if (part.empty()) {
+      rectified = cv::Mat::zeros(size, CV_8UC1);
+      return;
+    }
+    if (image.channels() == 3)
+      cv::extractChannel(image(part), cut, channel);
+    else
+      cut = image(part);
+    const cv::Matx33d from_part(1, 0, part.x, 0, 1, part.y, 0, 0, 1);
+    cv::warpPerspective(cut, rectified, to_rectified * from_part, size, cv::INTER_LINEAR,
+                        cv::BORDER_REPLICATE);
+    cv::GaussianBlur(rectified, rectified, cv::Size(), kBlur_px);
+  }
+
+  /// Image pixels per rectified pixel.
+  double scaleOf(const Quadrilateral& corners) const {
+    return std::sqrt(geometry::signedArea(corners) / size.area());
+  }
+
+  // Finds the strongest corners and edges, spread out. Skips the margin, because it may show the reveal.
+  void findPoints() {
+    points.clear();
+    cv::cornerMinEigenVal(rectified, contrast, kGradientBlock);
+    const int longer = std::max(size.width, size.height);
+    const int side = std::max(2, static_cast<int>(std::lround(kMargin * longer)));
+    const cv::Rect inner(side, side, size.width - 2 * side, size.height - 2 * side);
+    if (inner.width < kReach || inner.height < kReach) return;
+    mask = cv::Mat::zeros(size, CV_8UC1);
+    cv::compare(contrast(inner), kMinContrast, mask(inner), cv::CMP_GE);
+    cv::goodFeaturesToTrack(rectified, from, params.max_points, 1e-3, std::max(4.0, kSpacing * longer), mask,
+                            kGradientBlock);
+    for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p, {}});
+    rectified.copyTo(key_rectified);
+    slopes.take(rectified);
+    const int spacing = std::max(6, static_cast<int>(kSpacing * longer));
+    for (const EdgePoint& edge :
+         slopes.steepest(inner, spacing, kMinEdgeSlope, static_cast<std::size_t>(params.max_edges)))
+      if (std::none_of(from.begin(), from.end(),
+                       [&](const cv::Point2f& corner) { return lengthOf(corner - edge.place) < spacing; }))
+        points.push_back({static_cast<std::uint16_t>(points.size()), edge.place, edge.place, edge.normal});
+  }
+
+  // Corners come first.
+  void flow() {
+    from.clear(), to.clear();
+    for (const Track& track : points)
+      if (!track.isEdge()) from.push_back(track.key), to.push_back(track.now);
+    if (!from.empty()) flowCorners();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Track track = points[i];
+      if (i >= from.size() ? flowAcross(track) : isCornerBack(i)) {
+        if (i < from.size()) track.now = to[i];
+        points[kept++] = track;
+      }
+    }
+    points.resize(kept);
+  }
+
+  void flowCorners() {
+    back = from;
+    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
+    cv::buildOpticalFlowPyramid(rectified, pyramid, {kReach, kReach}, kLevels, true);
+    cv::calcOpticalFlowPyrLK(key_pyramid, pyramid, from, to, there, error, {kReach, kReach}, kLevels, until,
+                             cv::OPTFLOW_USE_INITIAL_FLOW);
+    cv::calcOpticalFlowPyrLK(pyramid, key_pyramid, to, back, here, error, {kReach, kReach}, kLevels, until,
+                             cv::OPTFLOW_USE_INITIAL_FLOW);
+  }
+
+  bool isCornerBack(std::size_t i) const {
+    return there[i] && here[i] && lengthOf(back[i] - from[i]) <= kMaxReturn_px && lies(to[i]);
+  }
+
+  bool flowAcross(Track& track) const {
+    const auto now = followAcross(key_rectified, rectified, {track.key, track.normal}, track.now);
+    if (!now || !lies(*now)) return false;
+    const auto again = followAcross(rectified, key_rectified, {*now, track.normal}, track.key);
+    if (!again || lengthOf(*again - track.key) > kMaxReturn_px) return false;
+    track.now = *now;
+    return true;
+  }
+
+  bool lies(const cv::Point2f& p) const {
+    const float side = static_cast<float>(0.5 * kMargin * std::max(size.width, size.height));
+    return p.x >= side && p.y >= side && p.x <= static_cast<float>(size.width) - 1.0f - side &&
+           p.y <= static_cast<float>(size.height) - 1.0f - side;
+  }
+
+  void report(WindowObservation& window) {
+    const cv::Matx33d to_image = to_rectified.inv();
+    tracks.sigma_px = kFlowSigma_px * std::max(scaleOf(window.corners), 1.0);
+    tracks.points.clear();
+    regions.find(rectified, params.surface_slope);
+    for (const Track& track : points) {
+      const Eigen::Vector2d now = mapped(to_image, track.now);
+      Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+      if (track.isEdge()) {
+        const cv::Point2f beside = track.now + cv::Point2f(-track.normal.y, track.normal.x);
+        const Eigen::Vector2d along = (mapped(to_image, beside) - now).normalized();
+        normal = {along.y(), -along.x()};
+      }
+      tracks.points.push_back(
+          {track.id, mapped(key_to_image, track.key), now, normal, regions.cellsBeside(track.now)});
+    }
+    window.interior = tracks;
+  }
+
+  bool isWornOut(const WindowObservation& window) const {
+    const double growth = scaleOf(window.corners) / key_scale,
+                 age_sec = window.stamp_sec - tracks.key_stamp_sec;
+    const double left = static_cast<double>(points.size());
+    return growth > kMaxGrowth || growth < 1.0 / kMaxGrowth || age_sec > kMaxKeyframeAge_sec ||
+           (age_sec > kMinAge_sec && (left < kMinTracked || left < kMinShared * static_cast<double>(found)));
+  }
 
   InteriorKltParams params;
   bool has_key = false;
@@ -115,160 +260,6 @@ struct InteriorKltTracker::Impl {
   detection::InteriorTracks tracks;
 };
 
-void InteriorKltTracker::Impl::rectify(const cv::Mat& image, const Quadrilateral& corners) {
-  to_rectified = rectification(corners, size);
-  const cv::Rect part = cv::boundingRect(toCv(corners)) & cv::Rect(0, 0, image.cols, image.rows);
-  if (part.empty()) {
-    rectified = cv::Mat::zeros(size, CV_8UC1);
-    return;
-  }
-  if (image.channels() == 3)
-    cv::extractChannel(image(part), cut, channel);
-  else
-    cut = image(part);
-  const cv::Matx33d from_part(1, 0, part.x, 0, 1, part.y, 0, 0, 1);
-  cv::warpPerspective(cut, rectified, to_rectified * from_part, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::GaussianBlur(rectified, rectified, cv::Size(), kBlur_px);
-}
-
-void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
-  has_key = false;
-  size = rectifiedSize(window.corners, params.max_side_px);
-  if (std::min(size.width, size.height) < kMinSide_px) return;
-  rectify(image, window.corners);
-  if (image.channels() == 3) chooseChannel(image, window.corners);
-  cv::buildOpticalFlowPyramid(rectified, key_pyramid, {kReach, kReach}, kLevels, true);
-  key_to_image = to_rectified.inv();
-  key_scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
-  tracks.key_stamp_sec = window.stamp_sec;
-  tracks.key_corners = window.corners;
-  tracks.key_covariance = window.corner_covariance;
-  target_id = window.target_id;
-  findPoints();
-  found = points.size();
-  has_key = true;
-}
-
-// Chooses the channel with the most edges: a brown cupboard before a blue wall may be as bright as the wall.
-void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
-  int most = -1, best = 1;
-  for (channel = 0; channel < 3; ++channel) {
-    rectify(image, corners);
-    slopes.take(rectified);
-    const int steep = slopes.steeperThan(kMinEdgeSlope);
-    if (steep > most) most = steep, best = channel;
-  }
-  channel = best;
-  rectify(image, corners);
-}
-
-// Finds the strongest corners, spread out. Skips the margin, because it may show the reveal.
-void InteriorKltTracker::Impl::findPoints() {
-  points.clear();
-  cv::cornerMinEigenVal(rectified, contrast, kGradientBlock);
-  const int side = std::max(2, static_cast<int>(std::lround(kMargin * std::max(size.width, size.height))));
-  const cv::Rect inner(side, side, size.width - 2 * side, size.height - 2 * side);
-  if (inner.width < kReach || inner.height < kReach) return;
-  mask = cv::Mat::zeros(size, CV_8UC1);
-  for (int y = inner.y; y < inner.y + inner.height; ++y)
-    for (int x = inner.x; x < inner.x + inner.width; ++x)
-      mask.at<unsigned char>(y, x) = contrast.at<float>(y, x) >= kMinContrast ? 255 : 0;
-  cv::goodFeaturesToTrack(rectified, from, params.max_points, 1e-3,
-                          std::max(4.0, kSpacing * std::max(size.width, size.height)), mask, kGradientBlock);
-  for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p, {}});
-  findEdges(inner);
-}
-
-void InteriorKltTracker::Impl::findEdges(const cv::Rect& inner) {
-  rectified.copyTo(key_rectified);
-  slopes.take(rectified);
-  const int spacing = std::max(6, static_cast<int>(kSpacing * std::max(size.width, size.height)));
-  const auto corners = static_cast<std::ptrdiff_t>(points.size());
-  for (const EdgePoint& edge :
-       slopes.steepest(inner, spacing, kMinEdgeSlope, static_cast<std::size_t>(params.max_edges))) {
-    const bool is_corner = std::any_of(points.begin(), points.begin() + corners, [&](const Track& corner) {
-      return lengthOf(corner.key - edge.place) < spacing;
-    });
-    if (!is_corner)
-      points.push_back({static_cast<std::uint16_t>(points.size()), edge.place, edge.place, edge.normal});
-  }
-}
-
-bool InteriorKltTracker::Impl::flowAcross(Track& track) const {
-  const auto now = followAcross(key_rectified, rectified, {track.key, track.normal}, track.now);
-  if (!now || !lies(*now)) return false;
-  const auto again = followAcross(rectified, key_rectified, {*now, track.normal}, track.key);
-  if (!again || lengthOf(*again - track.key) > kMaxReturn_px) return false;
-  track.now = *now;
-  return true;
-}
-
-bool InteriorKltTracker::Impl::lies(const cv::Point2f& p) const {
-  const float side = static_cast<float>(0.5 * kMargin * std::max(size.width, size.height));
-  return p.x >= side && p.y >= side && p.x <= static_cast<float>(size.width) - 1.0f - side &&
-         p.y <= static_cast<float>(size.height) - 1.0f - side;
-}
-
-// Corners come first.
-void InteriorKltTracker::Impl::flow() {
-  flowCorners();
-  std::size_t kept = 0;
-  for (Track& track : points)
-    if (!track.isEdge() || flowAcross(track)) points[kept++] = track;
-  points.resize(kept);
-}
-
-void InteriorKltTracker::Impl::flowCorners() {
-  from.clear(), to.clear();
-  for (const Track& track : points)
-    if (!track.isEdge()) from.push_back(track.key), to.push_back(track.now);
-  if (from.empty()) return;
-  back = from;
-  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
-  cv::buildOpticalFlowPyramid(rectified, pyramid, {kReach, kReach}, kLevels, true);
-  cv::calcOpticalFlowPyrLK(key_pyramid, pyramid, from, to, there, error, {kReach, kReach}, kLevels, until,
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
-  cv::calcOpticalFlowPyrLK(pyramid, key_pyramid, to, back, here, error, {kReach, kReach}, kLevels, until,
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (!there[i] || !here[i] || lengthOf(back[i] - from[i]) > kMaxReturn_px || !lies(to[i])) continue;
-    points[kept] = points[i];
-    points[kept++].now = to[i];
-  }
-  points.erase(points.begin() + static_cast<std::ptrdiff_t>(kept),
-               points.begin() + static_cast<std::ptrdiff_t>(from.size()));
-}
-
-void InteriorKltTracker::Impl::report(WindowObservation& window) {
-  const cv::Matx33d to_image = to_rectified.inv();
-  const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
-  tracks.sigma_px = kFlowSigma_px * std::max(scale, 1.0);
-  tracks.points.clear();
-  regions.find(rectified, params.surface_slope);
-  for (const Track& track : points) {
-    const Eigen::Vector2d now = mapped(to_image, track.now);
-    Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-    if (track.isEdge()) {
-      const cv::Point2f beside = track.now + cv::Point2f(-track.normal.y, track.normal.x);
-      const Eigen::Vector2d along = (mapped(to_image, beside) - now).normalized();
-      normal = {along.y(), -along.x()};
-    }
-    tracks.points.push_back(
-        {track.id, mapped(key_to_image, track.key), now, normal, regions.cellsBeside(track.now)});
-  }
-  window.interior = tracks;
-}
-
-bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const {
-  const double growth = std::sqrt(geometry::signedArea(window.corners) / size.area()) / key_scale;
-  const double left = static_cast<double>(points.size());
-  return growth > kMaxGrowth || growth < 1.0 / kMaxGrowth ||
-         window.stamp_sec - tracks.key_stamp_sec > kMaxKeyframeAge_sec ||
-         (window.stamp_sec - tracks.key_stamp_sec > kMinAge_sec &&
-          (left < kMinTracked || left < kMinShared * static_cast<double>(found)));
-}
-
 InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params)
     : impl_(std::make_unique<Impl>(parameters::requireInRange(params, "openness"))) {}
 InteriorKltTracker::~InteriorKltTracker() = default;
@@ -277,15 +268,7 @@ void InteriorKltTracker::reset() { impl_->has_key = false; }
 
 void InteriorKltTracker::follow(const cv::Mat& image, WindowObservation& window) {
   window.interior.points.clear();
-  if (!impl_->params.enabled || !isUsable(window)) return;
-  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) return;
-  const bool is_other = impl_->isOther(window);
-  impl_->last_sec = window.stamp_sec;
-  if (is_other) return impl_->takeKey(image, window);
-  impl_->rectify(image, window.corners);
-  if (!impl_->points.empty()) impl_->flow();
-  impl_->report(window);
-  if (impl_->isWornOut(window)) impl_->takeKey(image, window);
+  if (impl_->params.enabled && isUsable(image, window)) impl_->follow(image, window);
 }
 
 }  // namespace window_ingress::openness

@@ -1,11 +1,10 @@
-#include "window_ingress/detection/reference_drawing.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "detection/reference/ring_samples.hpp"
 #include "drawn_window.hpp"
+#include "window_ingress/detection/debug_image.hpp"
 
 namespace window_ingress::detection::reference_drawing_test {
 

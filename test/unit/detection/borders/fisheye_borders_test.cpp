@@ -87,8 +87,8 @@ TEST(FisheyeBorders, ABorder60DegreesOffTheAxisIsFollowedAndItsSpreadIsHonest) {
     const Quadrilateral before = opening(0.0), now = opening(18.0 + 0.37 * i);
     const auto stretch = [&](const Quadrilateral& quad) { return Stretch{quad[side], quad[(side + 1) % 4]}; };
     EdgeTracker tracker;
-    tracker.learn(drawn(before, 12.0, 100 + i), &lens, stretch(before), 500.0);
-    const auto seen = tracker.follow(drawn(now, 12.0, 200 + i), &lens, stretch(opening(10.0)), 510.0, 6.0);
+    tracker.learn({drawn(before, 12.0, 100 + i), &lens}, stretch(before), 500.0);
+    const auto seen = tracker.follow({drawn(now, 12.0, 200 + i), &lens}, stretch(opening(10.0)), 510.0, 6.0);
     ASSERT_TRUE(seen.fitted) << i;
     const double off_px = besideSide(now, side, seen.line.point);
     squares_px += off_px * off_px / trials;

@@ -110,12 +110,12 @@ Line lineAt(double row, double sigma_px) { return {Vector2d(150, row), Vector2d(
 TEST(EdgeTracker, AnEdgeBesideTheBorderIsReportedAsTheBorder) {
   const auto image = [](double row) { return bands({{0, kWall}, {row, kHole}}); };
   EdgeTracker tracker;
-  tracker.learn(image(100), nullptr, stretchAt(100), 100.0);
-  EXPECT_NEAR(tracker.follow(image(100), nullptr, stretchAt(100), 100.0, 1.0).line.point.y(), 100.0, 0.1);
+  tracker.learn({image(100), nullptr}, stretchAt(100), 100.0);
+  EXPECT_NEAR(tracker.follow({image(100), nullptr}, stretchAt(100), 100.0, 1.0).line.point.y(), 100.0, 0.1);
   ASSERT_TRUE(tracker.keepApart(lineAt(98.2, 0.2), 100.0, 2.5));
   for (const double size_px : {100.0, 120.0}) {
     const double border = 101.0 - 1.8 * std::pow(size_px / 100.0, 2);
-    const auto followed = tracker.follow(image(101), nullptr, stretchAt(border + 0.5), size_px, 1.0);
+    const auto followed = tracker.follow({image(101), nullptr}, stretchAt(border + 0.5), size_px, 1.0);
     ASSERT_TRUE(followed.fitted);
     EXPECT_NEAR(followed.line.point.y(), border, 0.1) << size_px;
     EXPECT_GT(followed.line.sigma_px, 0.2 * size_px / 100.0);
@@ -126,8 +126,8 @@ TEST(EdgeTracker, AnEdgeBesideTheBorderIsReportedAsTheBorder) {
 TEST(EdgeTracker, WhereABorderShowsNoEdgeTheNearestOneIsFollowedForIt) {
   const cv::Mat image = bands({{0, kWall}, {100, kHole}});
   EdgeTracker tracker;
-  tracker.learnNear(image, nullptr, stretchAt(97), 100.0);
-  const auto followed = tracker.follow(image, nullptr, stretchAt(97), 100.0, 1.0);
+  tracker.learnNear({image, nullptr}, stretchAt(97), 100.0);
+  const auto followed = tracker.follow({image, nullptr}, stretchAt(97), 100.0, 1.0);
   ASSERT_TRUE(followed.fitted);
   EXPECT_NEAR(followed.line.point.y(), 97.0, 0.2);
 }
@@ -142,31 +142,31 @@ TEST(QuadTracker, WhereTheImageEndsBesideASideItsOwnEdgeIsBelieved) {
     QuadTracker tracker;
     QuadMotion motion;
     motion.start(drawn.opening, 0.3);
-    tracker.learn(image, nullptr, drawn.opening, false);
+    tracker.learn({image, nullptr}, drawn.opening, false);
     motion.predict(Eigen::Matrix3d::Identity(), 0.033, {1, 1, 1});
-    ASSERT_TRUE(tracker.follow(image, nullptr, motion));
+    ASSERT_TRUE(tracker.follow({image, nullptr}, motion));
     ASSERT_EQ(tracker.fitted(), 4);
     RefinedBorders borders;
     borders.corners = drawn.opening;
     borders.corners[0].y() -= 5.0, borders.corners[1].y() -= 5.0;
     borders.fitted.fill(true);
     borders.known.fill({1.0, 0.01});
-    EXPECT_EQ(tracker.realign(image, nullptr, borders, motion), top > 50.0) << top;
+    EXPECT_EQ(tracker.realign({image, nullptr}, borders, motion), top > 50.0) << top;
   }
 }
 
 TEST(StretchInView, IsCutByTheImage) {
-  const cv::Size size(320, 240);
-  const auto cut = stretchInView({Vector2d(-100, 50), Vector2d(500, 50)}, size, 3.0, nullptr);
+  const cv::Mat image(240, 320, CV_8UC1);
+  const auto cut = stretchInView({Vector2d(-100, 50), Vector2d(500, 50)}, {image, nullptr}, 3.0);
   ASSERT_TRUE(cut);
   EXPECT_NEAR(cut->from.x(), 3.0, 1e-9);
   EXPECT_NEAR(cut->to.x(), 316.0, 1e-9);
-  EXPECT_FALSE(stretchInView({Vector2d(-100, -50), Vector2d(500, -50)}, size, 3.0, nullptr));
-  EXPECT_FALSE(stretchInView({Vector2d(9, 9), Vector2d(9, 9)}, size, 3.0, nullptr));
-  EXPECT_FALSE(stretchInView({Vector2d(kNan, 9), Vector2d(9, 9)}, size, 3.0, nullptr));
+  EXPECT_FALSE(stretchInView({Vector2d(-100, -50), Vector2d(500, -50)}, {image, nullptr}, 3.0));
+  EXPECT_FALSE(stretchInView({Vector2d(9, 9), Vector2d(9, 9)}, {image, nullptr}, 3.0));
+  EXPECT_FALSE(stretchInView({Vector2d(kNan, 9), Vector2d(9, 9)}, {image, nullptr}, 3.0));
   auto lens = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.4);
   lens.distortion = {-0.3, 0.05, 0, 0, 0};
-  const auto bent = stretchInView({Vector2d(-4000, 60), Vector2d(4000, 60)}, size, 3.0, &lens);
+  const auto bent = stretchInView({Vector2d(-4000, 60), Vector2d(4000, 60)}, {image, &lens}, 3.0);
   ASSERT_TRUE(bent) << "far outside, the lens model folds back";
   EXPECT_TRUE(lens.contains(lens.distort(bent->from)) && lens.contains(lens.distort(bent->to)));
 }
