@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "detection/reference/ring_samples.hpp"
+#include "detection/reference/ring_histogram.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 
 namespace window_ingress::detection {
@@ -48,8 +48,8 @@ cv::Mat drawReference(const ReferenceAppearance& reference) {
   cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
   const cv::Mat inner = within(image.size(), opening);
-  const cv::Mat near = within(image.size(), ringLine(opening, RingSamples::kFrameWidth));
-  const cv::Mat far = within(image.size(), ringLine(opening, RingSamples::kSurroundWidth));
+  const cv::Mat near = within(image.size(), ringLine(opening, RingHistogram::kFrameWidth));
+  const cv::Mat far = within(image.size(), ringLine(opening, RingHistogram::kSurroundWidth));
   cv::Mat canvas;
   image.convertTo(canvas, -1, kFaded);
   tint(image, far & ~near, kSurroundColour, canvas);

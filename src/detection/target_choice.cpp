@@ -108,7 +108,7 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
                                                            RefinedBorders& fitted) {
   const auto ring =
       reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
-  ring_there_ = ring ? ring->match.correlation : 0.0;
+  ring_there_ = ring ? ring->correlation : 0.0;
   if (!ring) {
     if (reference_.frameTells(view.image, candidate.border_score)) return std::nullopt;
     return Rejection{RejectReason::kUnlike, 0.0, params_.min_correlation};

@@ -28,13 +28,9 @@ float termOf(const Sums& sums, const Term& p, const Term& q) {
 }  // namespace
 
 Monomials monomialsOf(float x, float y) {
-  Monomials m = Monomials::Zero();
-  for (int degree = 0, at = 0; degree <= 4; ++degree)
-    for (int power = 0; power <= degree; ++power, ++at) {
-      m[at] = 1.0F;
-      for (int k = 0; k < degree - power; ++k) m[at] *= x;
-      for (int k = 0; k < power; ++k) m[at] *= y;
-    }
+  Monomials m;
+  m << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y,  // up to degree three
+      x * x * x * x, x * x * x * y, x * x * y * y, x * y * y * y, y * y * y * y, 0;
   return m;
 }
 

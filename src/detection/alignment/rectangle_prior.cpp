@@ -16,38 +16,13 @@ using geometry::Quadrilateral;
 constexpr double kSkewSigma = 0.003;   ///< of the cosine between the sides, from errors of corners and camera
 constexpr double kBeyondASide = 0.05;  ///< distance at which the camera counts as beyond a side [sides]
 
-constexpr double kFocal = 0.9;  ///< without a calibration [longer image sides]
-constexpr double kLogFocalSigma = 0.4,
-                 kCentreSigma = 0.2;  ///< of the logarithm; of the centre [focal lengths]
+constexpr double kFocal = 0.9;                              ///< without a calibration [longer image sides]
+constexpr double kLogFocalSigma = 0.4, kCentreSigma = 0.2;  ///< its logarithm's; the centre's [focal lengths]
 
 constexpr double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};  ///< corners of the opening
 constexpr double kLinePx = 0.05;  ///< standard deviation of the known sides when the fourth is placed
 constexpr int kCompletingSteps = 4;
 constexpr double kVague = 0.03;  ///< a side whose ends are less certain than this is not placed [its lengths]
-
-template <int kCount>
-using Sides = Eigen::Matrix<double, 3, kCount>;
-template <int kCount>
-using Slopes = Eigen::Matrix<double, 1, kCount>;
-
-// The two side directions of the rectangle as seen, and what they say about its shape.
-struct SeenRectangle {
-  Eigen::Vector3d across, down;
-  double width = across.norm(), height = down.norm();
-  double skew = across.dot(down) / (width * height);
-
-  template <int kCount>
-  Slopes<kCount> logAspectBy(const Sides<kCount>& d_across, const Sides<kCount>& d_down) const {
-    return across.transpose() * d_across / (width * width) - down.transpose() * d_down / (height * height);
-  }
-
-  template <int kCount>
-  Slopes<kCount> skewBy(const Sides<kCount>& d_across, const Sides<kCount>& d_down) const {
-    return (down.transpose() * d_across + across.transpose() * d_down) / (width * height) -
-           skew * (across.transpose() * d_across / (width * width) +
-                   down.transpose() * d_down / (height * height));
-  }
-};
 
 geometry::PinholeCamera usualCamera(const cv::Size& image) {
   const double focal_px = kFocal * std::max(image.width, image.height);
@@ -56,8 +31,8 @@ geometry::PinholeCamera usualCamera(const cv::Size& image) {
 }
 
 // Derivatives of a side by the camera: by the focal length's logarithm, by the centre's x and y.
-Sides<3> byCamera(const Eigen::Vector3d& side) {
-  Sides<3> slopes;
+Matrix3d byCamera(const Eigen::Vector3d& side) {
+  Matrix3d slopes;
   slopes << -side.x(), -side.z(), 0.0, -side.y(), 0.0, -side.z(), 0.0, 0.0, 0.0;
   return slopes;
 }
@@ -68,7 +43,7 @@ Eigen::Vector2d normalOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
   return {along.y(), -along.x()};
 }
 
-void add(double value, const Slopes<8>& slope, double variance, double noise, Matrix8f& normal,
+void add(double value, const RowVector8d& slope, double variance, double noise, Matrix8f& normal,
          Vector8f& right) {
   normal += (noise / variance * slope.transpose() * slope).cast<float>();
   right -= (noise / variance * value * slope.transpose()).cast<float>();
@@ -76,13 +51,15 @@ void add(double value, const Slopes<8>& slope, double variance, double noise, Ma
 
 }  // namespace
 
-bool cornersOf(const Matrix3d& map, Quadrilateral& quad) {
+std::optional<Quadrilateral> cornersOf(const Matrix3d& map) {
+  Quadrilateral quad;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector3d p = map * Eigen::Vector3d(kX[i], kY[i], 1.0);
-    if (!(p.z() > 1e-6)) return false;
+    if (!(p.z() > 1e-6)) return std::nullopt;
     quad[i] = p.hnormalized();
   }
-  return geometry::isFinite(quad) && geometry::isConvex(quad);
+  if (!geometry::isFinite(quad) || !geometry::isConvex(quad)) return std::nullopt;
+  return quad;
 }
 
 RowVector8d slopeAcross(const Matrix3d& map, int corner, const Eigen::Vector2d& direction) {
@@ -104,27 +81,28 @@ RectanglePrior::RectanglePrior(const cv::Size& image, const OpeningAspect& aspec
   camera_sigma_ = {kLogFocalSigma, kCentreSigma, kCentreSigma};
 }
 
-// The two contradictions: in aspect and in angle.
+// The two contradictions: in aspect and in angle. Slopes are first by p, then by the camera.
 std::optional<std::array<RectanglePrior::Contradiction, 2>> RectanglePrior::contradictions(
     const Matrix3d& map) const {
+  using Slopes = Eigen::Matrix<double, 1, 11>;
   const Matrix3d view = inverse_camera_ * map;
-  const SeenRectangle shape{view.col(0), view.col(1)};
-  if (!(shape.width > 0.0 && shape.height > 0.0)) return std::nullopt;
-  Sides<8> d_across = Sides<8>::Zero(), d_down = Sides<8>::Zero();  // by p
-  for (int k = 0; k < 3; ++k) {
-    d_across.col(3 * k) = -view.col(k);
-    d_down.col(3 * k + 1) = -view.col(k);
-  }
-  const Sides<3> across_by_camera = byCamera(shape.across), down_by_camera = byCamera(shape.down);
-  const auto variance = [this](double sigma, const Slopes<3>& by_camera) {
-    return sigma * sigma + by_camera.transpose().cwiseProduct(camera_sigma_).squaredNorm();
+  const Eigen::Vector3d across = view.col(0), down = view.col(1);
+  const double width = across.norm(), height = down.norm(), skew = across.dot(down) / (width * height);
+  if (!(width > 0.0 && height > 0.0)) return std::nullopt;
+  Eigen::Matrix<double, 3, 11> d_across, d_down;
+  d_across << Eigen::Matrix<double, 3, 8>::Zero(), byCamera(across);
+  d_down << Eigen::Matrix<double, 3, 8>::Zero(), byCamera(down);
+  for (int k = 0; k < 3; ++k) d_across.col(3 * k) = d_down.col(3 * k + 1) = -view.col(k);
+  const Slopes log_width = across.transpose() * d_across / (width * width),
+               log_height = down.transpose() * d_down / (height * height),
+               product = (down.transpose() * d_across + across.transpose() * d_down) / (width * height);
+  const auto contradiction = [this](double value, const Slopes& by, double sigma) {
+    const double from_camera = by.tail<3>().transpose().cwiseProduct(camera_sigma_).squaredNorm();
+    return Contradiction{value, by.head<8>(), sigma * sigma + from_camera};
   };
-  const Contradiction in_aspect{
-      std::log(shape.width / shape.height / aspect_.value), shape.logAspectBy(d_across, d_down),
-      variance(aspect_.log_sigma, shape.logAspectBy(across_by_camera, down_by_camera))};
-  const Contradiction in_angle{shape.skew, shape.skewBy(d_across, d_down),
-                               variance(kSkewSigma, shape.skewBy(across_by_camera, down_by_camera))};
-  return std::array<Contradiction, 2>{in_aspect, in_angle};
+  return std::array<Contradiction, 2>{
+      contradiction(std::log(width / height / aspect_.value), log_width - log_height, aspect_.log_sigma),
+      contradiction(skew, product - skew * (log_width + log_height), kSkewSigma)};
 }
 
 void RectanglePrior::addTo(const Matrix3d& map, double noise, Matrix8f& normal, Vector8f& right) const {
@@ -142,11 +120,15 @@ double RectanglePrior::misfit(const Matrix3d& map) const {
 
 // The ends of the three other sides stay on their lines.
 std::optional<CompletedView> RectanglePrior::completed(const Matrix3d& map, int side) const {
-  Quadrilateral from, to;
-  if (!cornersOf(map, from)) return std::nullopt;
+  const auto start = cornersOf(map);
+  if (!start) return std::nullopt;
+  const Quadrilateral& from = *start;
   CompletedView view{map, 0.0};
+  double length_px = 0.0;
   for (int n = 0; n < kCompletingSteps; ++n) {
-    if (!cornersOf(view.map, to)) return std::nullopt;
+    const auto corners = cornersOf(view.map);
+    if (!corners) return std::nullopt;
+    const Quadrilateral& to = *corners;
     Matrix8f normal = 1e-3F * Matrix8f::Identity();
     Vector8f right = Vector8f::Zero();
     for (int i = 0; i < 4; ++i) {
@@ -169,8 +151,9 @@ std::optional<CompletedView> RectanglePrior::completed(const Matrix3d& map, int 
           std::max(view.sigma_px, std::sqrt(static_cast<double>(slope.dot(factors.solve(slope)))));
     }
     view.map = view.map * change->inverse();
+    length_px = (to[next] - to[side]).norm();
   }
-  if (!(view.sigma_px < kVague * (to[(side + 1) % 4] - to[side]).norm())) return std::nullopt;
+  if (!(view.sigma_px < kVague * length_px)) return std::nullopt;
   return view;
 }
 

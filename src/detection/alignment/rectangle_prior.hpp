@@ -1,13 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <opencv2/core.hpp>
-#include <optional>
 
 #include "detection/alignment/homography_sums.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 
@@ -17,10 +13,15 @@ struct OpeningAspect {
   double log_sigma = 0.0;  ///< standard deviation of the logarithm of `value`; above 0
 };
 
+/// Width and height of an opening of this aspect [its mean sides].
+inline Eigen::Vector2d shapeOf(double aspect) {
+  return {2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
+}
+
 using RowVector8d = Eigen::Matrix<double, 1, 8>;
 
-/// Corners of the opening in the image; false if they form no convex quadrilateral in front of the camera.
-bool cornersOf(const Eigen::Matrix3d& map, geometry::Quadrilateral& quad);
+/// Corners of the opening in the image; nothing if they form no convex quadrilateral in front of the camera.
+std::optional<geometry::Quadrilateral> cornersOf(const Eigen::Matrix3d& map);
 
 /// How far a corner moves along a direction of the image when its map changes by p to map * (1 + P).
 RowVector8d slopeAcross(const Eigen::Matrix3d& map, int corner, const Eigen::Vector2d& direction);
@@ -66,15 +67,15 @@ class RectanglePrior {
   /// A quantity that is 0 for a true view, its derivatives by p, and its variance.
   struct Contradiction {
     double value;
-    Eigen::Matrix<double, 1, 8> slope;
+    RowVector8d slope;
     double variance;
   };
   std::optional<std::array<Contradiction, 2>> contradictions(const Eigen::Matrix3d& map) const;
 
   Eigen::Matrix3d inverse_camera_;
   OpeningAspect aspect_;
-  Eigen::Vector3d camera_sigma_ =
-      Eigen::Vector3d::Zero();  ///< of the focal length's logarithm, of the centre [focal lengths]
+  /// Of the focal length's logarithm, of the centre [focal lengths].
+  Eigen::Vector3d camera_sigma_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace window_ingress::detection

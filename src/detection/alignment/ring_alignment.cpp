@@ -4,11 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -28,15 +24,19 @@ constexpr double kContradicts = 1.5;   ///< misfit above which one side of a vie
 constexpr double kHiddenSide = 0.05;   ///< gain in correlation without one side that shows it is hidden
 constexpr double kKnownAspect = 0.03;  ///< standard deviation of its logarithm for three sides to suffice
 constexpr float kFirstSpread = 0.2F;   ///< of the residuals, initially
-constexpr float kStepSpread = 0.06F,
-                kPerspectiveSpread = 0.04F;  ///< prior of a step [sides]
-constexpr double kMinCorrelation = 0.05;     ///< needed at a level to continue
-constexpr double kDependent = 3.0;           ///< samples per independent noise value
+constexpr float kStepSpread = 0.06F, kPerspectiveSpread = 0.04F;  ///< prior of a step [sides]
+constexpr double kMinCorrelation = 0.05;                          ///< needed at a level to continue
+constexpr double kDependent = 3.0;                                ///< samples per independent noise value
 constexpr float kDimRing = 40.0F;     ///< the noise of a darker ring shows in the logarithms [grey levels]
 constexpr double kLeastInView = 0.5;  ///< least visible part of the ring for a side to be known
 constexpr double kFloorPx = 0.03;     ///< least standard deviation of a side
 /// Tolerances of a frame: out of true, and standing out of the opening's plane [sides].
 constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
+
+void leaveOut(int side, std::vector<RingSegment>& segments) {
+  const auto a_side = static_cast<std::ptrdiff_t>(segments.size() / 4);
+  std::fill_n(segments.begin() + side * a_side, a_side, RingSegment());
+}
 
 }  // namespace
 
@@ -44,10 +44,9 @@ void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geom
                         bool covered) {
   view_.set(model, image, camera, covered);
   prior_.reset();
-  if (model.aspect())
-    prior_ =
-        camera ? RectanglePrior(*camera, *model.aspect()) : RectanglePrior(image.size(), *model.aspect());
-  leaves_out_ = prior_ && model.aspect()->log_sigma <= kKnownAspect;
+  if (model.aspect)
+    prior_ = camera ? RectanglePrior(*camera, *model.aspect) : RectanglePrior(image.size(), *model.aspect);
+  leaves_out_ = prior_ && model.aspect->log_sigma <= kKnownAspect;
 }
 
 // Leaving out what does not fit raises the correlation by chance.
@@ -55,13 +54,9 @@ double RingAlignment::beyondChance(double correlation) const {
   return view_.covered() ? correlation - kByChance : correlation;
 }
 
-RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
-  RingMatch match;
-  if (view_.look(quad, side_px) < RingView::kMinSeen) return match;
-  RingCorrelation correlation;
-  for (int s = 0; s < view_.ring().segmentCount(); ++s) correlation.add(view_.segment(s));
-  match.correlation = beyondChance(correlation.value());
-  return match;
+double RingAlignment::correlation(const Quadrilateral& quad, double side_px) {
+  if (view_.look(quad, side_px) < RingView::kMinSeen) return -1.0;
+  return beyondChance(correlationOf(view_.segments()).mean());
 }
 
 RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
@@ -69,7 +64,7 @@ RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   if (view_.meanLog() < logOf(kDimRing))
     seen = view_.look(quad, 0.5 * std::min(side_px, geometry::meanSide(quad)));
   RingMatch match;
-  if (seen >= RingView::kMinSeen) match = judgement_.of(view_);
+  if (seen >= RingView::kMinSeen) match = matchOf(view_);
   match.correlation = beyondChance(match.correlation);
   return match;
 }
@@ -119,17 +114,12 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
   take(of_ring.vector(), segment.xx);
 }
 
-// Reads the segments at the current place.
-void RingAlignment::readSegments() {
-  segments_.clear(), parts_.clear();
-  correlation_ = {};
-  for (int s = 0; s < view_.ring().segmentCount(); ++s) {
-    RingSegment& segment = segments_.emplace_back(view_.segment(s));
-    if (hidden_ && sideOf(s) == *hidden_) segment = {};
-    correlation_.add(segment);
-    if (segment.weight > 0.0) parts_.push_back({segment.alike, segment.weight});
-    if (segment.covered_weight > 0.0) parts_.push_back({0.0, segment.covered_weight});
-  }
+// How well the ring fits; where the shape is known, covered parts do not count.
+double RingAlignment::fit() const {
+  if (!leaves_out_) return correlationOf(segments_).mean();
+  std::vector<WeightedSum> parts;
+  for (const RingSegment& segment : segments_) addParts(segment.alike, segment, parts);
+  return meanUncovered(parts);
 }
 
 // The change of the homography that removes most of the residuals; none if the samples do not determine one.
@@ -138,7 +128,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
   residuals_.assign(view_.ring().x.size() * kRingChannels, 0.0F);
-  const double least = leaves_out_ ? kMinAlike * correlation_.value() : -1.0;
+  const double least = leaves_out_ ? kMinAlike * correlationOf(segments_).mean() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)
       accumulate(segment, normal_sum, right, explained);
@@ -154,26 +144,29 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   return homographyOf(normal_.ldlt().solve(toward));
 }
 
-// Gauss-Newton steps. Keeps the map that fits best; where the shape is known, covered parts do not count.
-RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
-                                int most_steps) {
-  RingMatch best;
+// Gauss-Newton steps. Keeps the map that fits best, returns its correlation.
+double RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
+                             int most_steps, const std::optional<int>& hidden) {
+  double best = -1.0;
   Matrix3d at = map;
   const double reach_px = kFurthest * geometry::meanSide(start);
   int best_step = 0;
   double best_fit = -1.0;
   for (int n = 0;; ++n) {
     if (view_.look(scale, at, n > 0) < RingView::kMinSeen) break;
-    readSegments();
+    segments_ = view_.segments();
+    if (hidden) leaveOut(*hidden, segments_);
     const auto step = change(at);
-    if (const double fits = leaves_out_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
-      best_fit = fits, best.correlation = beyondChance(correlation_.value()), map = at, best_step = n,
+    if (const double fits = fit(); fits > best_fit) {
+      best_fit = fits, best_step = n, map = at;
+      best = beyondChance(correlationOf(segments_).mean());
       information_ = normal_ / (spread_ * spread_);
+    }
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);
-    Quadrilateral quad;
-    if (!cornersOf(at, quad) || geometry::furthestCorner(quad, start) > reach_px) break;
+    const auto quad = cornersOf(at);
+    if (!quad || geometry::furthestCorner(*quad, start) > reach_px) break;
     if ((*step - Matrix3d::Identity()).cwiseAbs().maxCoeff() * scale.ring->side_px < kStill_px)
       n = most_steps - 1;
   }
@@ -184,23 +177,22 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
 double RingAlignment::partInView(int side) const {
   const int a_side = view_.ring().segmentCount() / 4;
   const int begin = view_.ring().segments[side * a_side], end = view_.ring().segments[(side + 1) * a_side];
-  int seen = 0;
-  for (int i = begin; i < end; ++i) seen += view_.weight(i) > 0.0F;
-  return end > begin ? static_cast<double>(seen) / (end - begin) : 1.0;
+  const auto hidden = std::count(view_.weights() + begin, view_.weights() + end, 0.0F);
+  return end > begin ? 1.0 - static_cast<double>(hidden) / (end - begin) : 1.0;
 }
 
 // From the spread of the residuals, and the tolerances of frames.
 std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
-  Quadrilateral quad;
-  if (!prior_ || !cornersOf(map, quad)) return sides;
+  const auto quad = cornersOf(map);
+  if (!prior_ || !quad) return sides;
   const Eigen::Matrix<double, 8, 8> covariance = kDependent * information_.cast<double>().inverse();
   const auto views = prior_->viewsOfSides(map);
-  const bool framed = view_.model().framed();
+  const bool framed = view_.model().framed;
   for (int i = 0; i < 4; ++i) {
     if (partInView(i) < kLeastInView || (framed && views[i].from_beyond)) continue;
     const int next = (i + 1) % 4;
-    const Eigen::Vector2d along = quad[next] - quad[i];
+    const Eigen::Vector2d along = (*quad)[next] - (*quad)[i];
     const double length = along.norm();
     const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()) / length;
     const RowVector8d from = slopeAcross(map, i, normal), to = slopeAcross(map, next, normal);
@@ -222,36 +214,36 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   map /= map(2, 2);
   const double side_px = geometry::meanSide(ideal), finest = std::min(finest_px, side_px);
   spread_ = kFirstSpread;
-  AlignedRing found;
+  double correlation = -1.0;
   int last_level = -1;
-  for (double wanted = std::min(coarsest_px, finest);; wanted *= 2.0) {
+  bool is_last = false;
+  for (double wanted = std::min(coarsest_px, finest); !is_last; wanted *= 2.0) {
     const RingView::Scale scale = view_.scaleFor(side_px, std::min(wanted, finest));
-    const bool is_last = wanted >= finest;
-    if (scale.level != last_level || is_last)
-      found.match = refine(scale, ideal, map,
-                           is_last          ? kLastSteps
-                           : last_level < 0 ? kCoarseSteps
-                                            : kFineSteps);
-    if (found.match.correlation < kMinCorrelation) return std::nullopt;
+    is_last = wanted >= finest;
+    const int steps = is_last ? kLastSteps : last_level < 0 ? kCoarseSteps : kFineSteps;
+    if (scale.level != last_level || is_last) correlation = refine(scale, ideal, map, steps);
+    if (correlation < kMinCorrelation) return std::nullopt;
     last_level = scale.level;
-    if (!is_last) continue;
-    found.sides = sidesOf(map);
-    break;
   }
-  if (!cornersOf(map, found.quad)) return std::nullopt;
-  found.quad = geometry::distorted(found.quad, view_.lens());
-  return found;
+  return ringAt(map, correlation);
+}
+
+// The ring at the last place that `refine` found.
+std::optional<AlignedRing> RingAlignment::ringAt(const Matrix3d& map, double correlation) const {
+  const auto quad = cornersOf(map);
+  if (!quad || correlation < kMinCorrelation) return std::nullopt;
+  return AlignedRing{geometry::distorted(*quad, view_.lens()), correlation, sidesOf(map), std::nullopt};
 }
 
 // The side that something covers: three sides fit far better without it. Nothing otherwise.
 std::optional<int> RingAlignment::hiddenSide() const {
-  double most = std::max(kThreeSides, correlation_.value() + kHiddenSide);
+  const std::vector<RingSegment> segments = view_.segments();
+  double most = std::max(kThreeSides, correlationOf(segments).mean() + kHiddenSide);
   std::optional<int> hidden;
   for (int side = 0; side < 4; ++side) {
-    RingCorrelation others;
-    for (std::size_t s = 0; s < segments_.size(); ++s)
-      if (sideOf(s) != side) others.add(segments_[s]);
-    if (others.value() > most) most = others.value(), hidden = side;
+    std::vector<RingSegment> others = segments;
+    leaveOut(side, others);
+    if (const double fits = correlationOf(others).mean(); fits > most) most = fits, hidden = side;
   }
   return hidden;
 }
@@ -265,31 +257,25 @@ std::optional<AlignedRing> RingAlignment::uncovered(const Quadrilateral& quad, d
   const double side_px = geometry::meanSide(ideal);
   const RingView::Scale scale = view_.scaleFor(side_px, std::min(finest_px, side_px));
   view_.look(scale, map);
-  readSegments();
-  AlignedRing found;
-  found.hidden = hiddenSide();
-  const auto start = found.hidden ? prior_->completed(map, *found.hidden) : std::nullopt;
+  const auto hidden = hiddenSide();
+  const auto start = hidden ? prior_->completed(map, *hidden) : std::nullopt;
   if (!start) return std::nullopt;
-  hidden_ = found.hidden;
   map = start->map;
-  found.match = refine(scale, ideal, map, kLastSteps);
-  found.sides = sidesOf(map);
-  hidden_.reset();
-  if (found.match.correlation < kMinCorrelation) return std::nullopt;
-  const double sigma_px = start->sigma_px;
-  found.sides[*found.hidden] = {sigma_px, sigma_px * std::sqrt(12.0) / side_px};
-  if (!cornersOf(map, found.quad)) return std::nullopt;
-  found.quad = geometry::distorted(found.quad, view_.lens());
+  const double correlation = refine(scale, ideal, map, kLastSteps, hidden);
+  auto found = ringAt(map, correlation);
+  if (!found) return std::nullopt;
+  found->hidden = hidden;
+  found->sides[*hidden] = {start->sigma_px, start->sigma_px * std::sqrt(12.0) / side_px};
   return found;
 }
 
 std::optional<Quadrilateral> RingAlignment::completed(const Quadrilateral& quad, int side) const {
   const Quadrilateral ideal = geometry::undistorted(quad, view_.lens());
   if (!prior_ || !geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
-  const auto map = prior_->completed(mapFromCentre(ideal), side);
-  Quadrilateral whole;
-  if (!map || !cornersOf(map->map, whole)) return std::nullopt;
-  return geometry::distorted(whole, view_.lens());
+  const auto view = prior_->completed(mapFromCentre(ideal), side);
+  const auto whole = view ? cornersOf(view->map) : std::nullopt;
+  if (!whole) return std::nullopt;
+  return geometry::distorted(*whole, view_.lens());
 }
 
 }  // namespace window_ingress::detection

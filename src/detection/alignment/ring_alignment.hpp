@@ -17,7 +17,7 @@ namespace window_ingress::detection {
 /// Where the ring fits best.
 struct AlignedRing {
   geometry::Quadrilateral quad;  ///< order as the start, pixels of the raw image
-  RingMatch match;
+  double correlation;            ///< see RingMatch
   /// Uncertainty of the sides, in the same order. A side is unknown if the camera sees its frame from beyond
   /// it, or if less than half of the ring beside it is in the image.
   std::array<SideSigma, 4> sides;
@@ -36,10 +36,10 @@ class RingAlignment {
            bool covered = false);
 
   /// \param side_px resolution of the comparison, at most [px per mean side]
-  RingMatch compare(const geometry::Quadrilateral& quad, double side_px);
+  double correlation(const geometry::Quadrilateral& quad, double side_px);
 
-  /// As `compare`, also where something stands before the ring: samples that differ far more than most count
-  /// less. Dark images are compared at half the resolution, which averages the noise.
+  /// As `correlation`, also where something stands before the ring: samples that differ far more than most
+  /// count less. Dark images are compared at half the resolution, which averages the noise.
   RingMatch judge(const geometry::Quadrilateral& quad, double side_px);
 
   /// Nothing if the alignment runs away from the start. \param finest_px, coarsest_px last and first
@@ -66,24 +66,20 @@ class RingAlignment {
   };
   SlopeProducts products(const RingSegment& segment, int begin, int count) const;
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
-  int sideOf(int segment) const { return 4 * segment / view_.ring().segmentCount(); }
   double beyondChance(double correlation) const;
   double partInView(int side) const;
-  void readSegments();
+  double fit() const;
   std::optional<int> hiddenSide() const;
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
-  RingMatch refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
-                   int most_steps);
+  double refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
+                int most_steps, const std::optional<int>& hidden = std::nullopt);
+  std::optional<AlignedRing> ringAt(const Eigen::Matrix3d& map, double correlation) const;
   std::array<SideSigma, 4> sidesOf(const Eigen::Matrix3d& map) const;
 
   RingView view_;
-  RingScore judgement_;
   std::optional<RectanglePrior> prior_;
-  bool leaves_out_ = false;    ///< covered parts: three sides determine a rectangle of known shape
-  std::optional<int> hidden_;  ///< side left out
-  RingCorrelation correlation_;
+  bool leaves_out_ = false;  ///< covered parts: three sides determine a rectangle of known shape
   std::vector<RingSegment> segments_;
-  std::vector<WeightedPart> parts_;
   std::vector<float> residuals_;
   Matrix8f normal_;       ///< of the last change
   Matrix8f information_;  ///< of the best map, from its last change and the residual spread

@@ -4,7 +4,7 @@
 
 #include "detection/alignment/ring_alignment.hpp"
 #include "detection/alignment/ring_search.hpp"
-#include "detection/candidates/candidate_search.hpp"
+#include "detection/candidates/candidate.hpp"
 
 namespace window_ingress::detection {
 
@@ -17,29 +17,28 @@ class RingMatcher {
   static constexpr double kFoundStartPx = 30.0, kFollowedStartPx = 100.0;
 
   /// See RingModel.
-  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0,
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, float colour = 1.0F,
              const std::optional<OpeningAspect>& aspect = std::nullopt, bool framed = false) {
-    model_.learn(image, opening, colour);
-    model_.setAspect(aspect);
-    model_.setFramed(framed);
-    search_.forget();
-    if (model_.known()) search_.learn(image, opening);
+    model_ = {colour, aspect, framed, {}};
+    model_.learn(image, opening);
+    search_ = {};
+    if (known()) search_.learn(image, opening);
   }
-  void forget() { model_.forget(), search_.forget(); }
   bool known() const { return model_.known(); }
 
   /// Sets whether something stands before the ring. See RingAlignment.
   void setCovered(bool covered) { covered_ = covered; }
 
-  /// Aligned candidates, best first, each place once; the score combines the correlations. Valid until the
-  /// next call. Stores the correlation of every candidate before its alignment. \param image CV_8UC3
-  const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                            std::vector<ScoredCandidate>& candidates);
+  /// Aligned candidates, best first, each place once; the score combines the correlations. Stores the
+  /// correlation of every candidate before its alignment. \param image CV_8UC3
+  std::vector<ScoredCandidate> align(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                     std::vector<ScoredCandidate>& candidates);
 
   /// Places where the ring may be, found without edges, see RingSearch. \param image CV_8UC3
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image, bool leaning = true);
 
-  /// Best fit of the ring near this place; nothing where it does not fit. \param coarsest_px one of the above
+  /// Best fit of the ring near this place; nothing where it does not fit. The ring must be known.
+  /// \param coarsest_px one of the above
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        const geometry::Quadrilateral& quad, double coarsest_px);
   /// Fit of the ring there, in the image of the last call; also for an image that is less sharp than the
@@ -54,18 +53,17 @@ class RingMatcher {
   }
 
  private:
-  bool compares(const cv::Mat& image) const { return known() && image.channels() == kRingChannels; }
+  struct Promise {
+    double score;       ///< correlation before alignment, with some of the score by geometry
+    std::size_t index;  ///< of the candidate
+  };
+  std::vector<Promise> compareAll(std::vector<ScoredCandidate>& candidates);
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
-  void keep(const ScoredCandidate& candidate);
-  void compareAll(std::vector<ScoredCandidate>& candidates);
 
   RingModel model_;
   RingAlignment alignment_;
   RingSearch search_;
   bool covered_ = false;
-  std::vector<std::pair<double, std::size_t>>
-      order_;  ///< correlation before alignment, index into `candidates`
-  std::vector<ScoredCandidate> aligned_;
 };
 
 }  // namespace window_ingress::detection

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -39,27 +40,21 @@ struct RingLevel {
 /// Surroundings of the opening in the operator's image, at several resolutions: a flat ring of frame and
 /// wall, which a homography maps into any image. What lies within the opening or outside the image does not
 /// count.
-class RingModel {
- public:
+struct RingModel {
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
 
-  /// \param image CV_8UC3 \param opening canonical order, in pixels of the image \param colour weight of the
-  /// differences between channels, relative to brightness
-  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0);
-  void forget() { levels_.clear(), aspect_.reset(); }
-  bool known() const { return !levels_.empty(); }
+  float colour = 1.0F;  ///< weight of the differences between channels, relative to brightness
+  std::optional<OpeningAspect> aspect;  ///< of the opening, where known
+  bool framed = false;            ///< the ring shows a frame, which may stand out of the opening's plane
+  std::vector<RingLevel> levels;  ///< the coarsest first; none: nothing is known
 
-  /// Aspect of the opening, where known.
-  void setAspect(const std::optional<OpeningAspect>& aspect) { aspect_ = aspect; }
-  const std::optional<OpeningAspect>& aspect() const { return aspect_; }
-
-  /// The ring shows a frame, which may stand out of the opening's plane.
-  void setFramed(bool framed) { framed_ = framed; }
-  bool framed() const { return framed_; }
+  /// Samples the levels. \param image CV_8UC3 \param opening canonical order, in pixels of the image
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
+  bool known() const { return !levels.empty(); }
 
   /// Weights the differences between the channels' logarithms, for `count` points.
   void weighColour(float* blue, float* green, float* red, std::size_t count) const {
-    const float weight = colour_;
+    const float weight = colour;
     for (std::size_t i = 0; i < count; ++i) {
       const float brightness = (blue[i] + green[i] + red[i]) / 3.0F;
       blue[i] = brightness + weight * (blue[i] - brightness);
@@ -70,13 +65,6 @@ class RingModel {
 
   /// The level nearest to this resolution; levels differ by factors of the square root of two.
   const RingLevel& level(double side_px) const;
-  double finest() const { return levels_.back().side_px; }  ///< [px per mean side]
-
- private:
-  std::vector<RingLevel> levels_;
-  float colour_ = 1.0F;
-  std::optional<OpeningAspect> aspect_;
-  bool framed_ = false;
 };
 
 }  // namespace window_ingress::detection

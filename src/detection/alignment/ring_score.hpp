@@ -1,10 +1,8 @@
 #pragma once
 
-#include <vector>
-
-#include "detection/alignment/ring_view.hpp"
-
 namespace window_ingress::detection {
+
+class RingView;
 
 /// How well the surroundings of a quadrilateral match those of the opening in the reference image.
 struct RingMatch {
@@ -16,25 +14,8 @@ struct RingMatch {
 };
 
 /// Scores how well a view matches the reference, also where something stands before the ring: samples that
-/// differ far more than most count less. Keeps its memory.
-class RingScore {
- public:
-  /// \param view at the place, with all its samples; their weights are changed
-  RingMatch of(RingView& view);
-
- private:
-  /// Contribution of a segment to the match, and its contrast relative to the reference's.
-  struct Share {
-    double alike, weight, covered_weight, gain, variance;  ///< variance: of the logarithm of the gain
-    double faithful;                                       ///< part of `alike`
-  };
-  void shareOut(const RingView& view);
-  double weighContrasts();
-
-  std::vector<Share> shares_;
-  std::vector<WeightedPart> parts_;
-  RingCorrelation correlation_;
-  std::vector<float> gains_;
-};
+/// differ far more than most count less. \param view at the place, with all its samples; their weights are
+/// changed
+RingMatch matchOf(RingView& view);
 
 }  // namespace window_ingress::detection

@@ -35,6 +35,10 @@ cv::Rect shownAbout(const cv::Rect& opening, const cv::Mat& is_shown) {
   return shown;
 }
 
+double squaresOf(const cv::Mat& x, const cv::Mat& y) {
+  return cv::norm(x, cv::NORM_L2SQR) + cv::norm(y, cv::NORM_L2SQR);
+}
+
 }  // namespace
 
 // Slopes of the logarithms, which do not depend on the strength of the light.
@@ -46,11 +50,13 @@ void RingSearch::readSlopes(const cv::Mat& grey) {
 }
 
 void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& opening) {
-  forget();
+  sides_.clear();
   const double aspect = geometry::aspectRatio(opening);
-  opening_ = {kSidePx * 2.0 * aspect / (1.0 + aspect), kSidePx * 2.0 / (1.0 + aspect)};
+  opening_.width = kSidePx * 2.0 * aspect / (1.0 + aspect), opening_.height = kSidePx * 2.0 / (1.0 + aspect);
   const auto width = static_cast<float>(opening_.width), height = static_cast<float>(opening_.height);
   pattern_ = {2 * kReach + cvRound(width), 2 * kReach + cvRound(height)};
+  opening_.x = 0.5 * (pattern_.width - opening_.width),
+  opening_.y = 0.5 * (pattern_.height - opening_.height);
   const auto left = 0.5F * (static_cast<float>(pattern_.width) - width),
              top = 0.5F * (static_cast<float>(pattern_.height) - height);
   std::array<cv::Point2f, 4> from,
@@ -75,10 +81,8 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
        {cv::Rect(0, 0, pattern_.width, kReach), cv::Rect(end.x, 0, kReach, pattern_.height),
         cv::Rect(0, end.y, pattern_.width, kReach), cv::Rect(0, 0, kReach, pattern_.height)})
     if (const cv::Rect at = beside & seen; at.area() > 0)
-      sides_.push_back({at, slopes_x_(at).clone(), slopes_y_(at).clone(),
-                        cv::norm(slopes_x_(at), cv::NORM_L2SQR) + cv::norm(slopes_y_(at), cv::NORM_L2SQR),
-                        beside.width > beside.height});
-  if (sides_.size() < kFewestShown) forget();
+      sides_.push_back({at, slopes_x_(at).clone(), slopes_y_(at).clone(), beside.width > beside.height});
+  if (sides_.size() < kFewestShown) sides_.clear();
 }
 
 // Computes the slopes at this size of the image; false if it is smaller than the pattern.
@@ -105,7 +109,7 @@ bool RingSearch::correlate(double factor) {
     alike_ += alike_y_;
     cv::boxFilter(squares_, norm_, CV_32F, side.at.size(), {0, 0}, false);
     const double noise = kSlopeNoise * kSlopeNoise * 2.0 * side.at.area();
-    norm_ = (norm_ + noise) * (side.squares + noise);
+    norm_ = (norm_ + noise) * (squaresOf(side.slopes_x, side.slopes_y) + noise);
     cv::sqrt(norm_, norm_);
     cv::divide(alike_, norm_, alike_);
     cv::dilate(alike_, alike_, cv::Mat());
@@ -117,7 +121,6 @@ bool RingSearch::correlate(double factor) {
 
 void RingSearch::takePeaks(double factor) {
   cv::dilate(sum_, peaks_, cv::Mat::ones(kPeakPx, kPeakPx, CV_8U));
-  const double x0 = 0.5 * (pattern_.width - opening_.width), y0 = 0.5 * (pattern_.height - opening_.height);
   const auto in_image = [factor](double x, double y) {
     return Eigen::Vector2d(x / factor - 0.5, y / factor - 0.5);
   };
@@ -125,13 +128,11 @@ void RingSearch::takePeaks(double factor) {
     for (int column = 0; column < sum_.cols; ++column) {
       const float value = sum_.at<float>(row, column);
       if (value < kLeast || value < peaks_.at<float>(row, column)) continue;
-      const double left = column + x0, top = row + y0, right = left + opening_.width,
-                   bottom = top + opening_.height;
-      places_.push_back(
-          {{in_image(left, top), in_image(right, top), in_image(right, bottom), in_image(left, bottom)},
-           value,
-           factor,
-           {column, row}});
+      const double left = column + opening_.x, right = left + opening_.width;
+      const double top = row + opening_.y, bottom = top + opening_.height;
+      const geometry::Quadrilateral quad = {in_image(left, top), in_image(right, top),
+                                            in_image(right, bottom), in_image(left, bottom)};
+      places_.push_back({quad, value, factor, {column, row}});
     }
 }
 
@@ -141,11 +142,9 @@ double RingSearch::likeness(const Side& side, const cv::Rect& part, const cv::Po
   if ((there & cv::Rect({0, 0}, slopes_x_.size())) != there) return -1.0;
   const cv::Mat x = slopes_x_(there), y = slopes_y_(there);
   const cv::Mat wanted_x = side.slopes_x(part), wanted_y = side.slopes_y(part);
-  const auto squares = [&](const cv::Mat& a, const cv::Mat& b) {
-    return cv::norm(a, cv::NORM_L2SQR) + cv::norm(b, cv::NORM_L2SQR) +
-           2.0 * kSlopeNoise * kSlopeNoise * part.area();
-  };
-  return (wanted_x.dot(x) + wanted_y.dot(y)) / std::sqrt(squares(x, y) * squares(wanted_x, wanted_y));
+  const double noise = 2.0 * kSlopeNoise * kSlopeNoise * part.area();
+  return (wanted_x.dot(x) + wanted_y.dot(y)) /
+         std::sqrt((squaresOf(x, y) + noise) * (squaresOf(wanted_x, wanted_y) + noise));
 }
 
 // Offset across a part of a side at its best fit, between pixels by a parabola.
@@ -153,10 +152,10 @@ double RingSearch::offAcross(const Side& side, const cv::Rect& part, const cv::P
   std::array<double, 2 * kFurthestPx + 1> alike{};
   for (int across = -kFurthestPx; across <= kFurthestPx; ++across) {
     double best = -1.0;
-    for (int along = -1; along <= 1; ++along)
-      best = std::max(
-          best,
-          likeness(side, part, at + (side.is_level ? cv::Point(along, across) : cv::Point(across, along))));
+    for (int along = -1; along <= 1; ++along) {
+      const cv::Point off = side.is_level ? cv::Point(along, across) : cv::Point(across, along);
+      best = std::max(best, likeness(side, part, at + off));
+    }
     alike[across + kFurthestPx] = best - kOffCost * std::abs(across);
   }
   const auto most = std::max_element(alike.begin(), alike.end());
@@ -186,10 +185,8 @@ void RingSearch::settle(Place& place) {
   if (sides_.size() != 4 || !shrink(place.factor)) return;
   std::array<Line, 4> lines;
   for (int i = 0; i < 4; ++i) lines[i] = settled(sides_[i], place.at);
-  const double left = 0.5 * (pattern_.width - opening_.width),
-               top = 0.5 * (pattern_.height - opening_.height);
-  lines[0].at0 += top, lines[2].at0 += top + opening_.height;
-  lines[3].at0 += left, lines[1].at0 += left + opening_.width;
+  lines[0].at0 += opening_.y, lines[2].at0 += opening_.y + opening_.height;
+  lines[3].at0 += opening_.x, lines[1].at0 += opening_.x + opening_.width;
   const auto corner = [&](const Line& level, const Line& upright) {
     const double x = (upright.slope * level.at0 + upright.at0) / (1.0 - upright.slope * level.slope);
     const Eigen::Vector2d in_pattern(x, level.slope * x + level.at0);
@@ -203,7 +200,7 @@ void RingSearch::settle(Place& place) {
 
 const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most, bool leaning) {
   places_.clear();
-  if (!known()) return places_;
+  if (sides_.empty()) return places_;
   cv::cvtColor(image, grey_, cv::COLOR_BGR2GRAY);
   pyramid_.set(grey_);
   const double largest = kLargestPart * std::min(image.cols, image.rows);

@@ -24,10 +24,8 @@ class RingSearch {
 
   /// \param image CV_8UC3 \param opening canonical order, in pixels of the image
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
-  void forget() { sides_.clear(); }
-  bool known() const { return !sides_.empty(); }
 
-  /// Places, best first, each place once, at most `most`. Valid until the next call.
+  /// Places, best first, each place once, at most `most`; none before `learn`. Valid until the next call.
   /// \param image CV_8UC3 \param leaning false: upright, as the reference shows it
   const std::vector<Place>& run(const cv::Mat& image, std::size_t most, bool leaning = true);
 
@@ -36,8 +34,7 @@ class RingSearch {
   struct Side {
     cv::Rect at;  ///< in the pattern
     cv::Mat slopes_x, slopes_y;
-    double squares;  ///< sum of the squared slopes
-    bool is_level;   ///< top or bottom
+    bool is_level;  ///< top or bottom
   };
   /// Offset across a side as a line, from the pattern's corner [px].
   struct Line {
@@ -53,7 +50,7 @@ class RingSearch {
   void takePeaks(double factor);
 
   cv::Size pattern_;
-  cv::Size2d opening_;  ///< in the middle of the pattern [px]
+  cv::Rect2d opening_;  ///< in the middle of the pattern [px]
   std::vector<Side> sides_;
   ImagePyramid pyramid_;
   cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, squares_;  ///< at one size of the image

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -16,10 +14,9 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr float kMaxGain = 2.0F;
-constexpr float kUsualWeight = 0.5F;       ///< least mean sample weight of an uncovered segment
-constexpr double kMaxCovered = 1.0 / 3.0;  ///< of the ring
-constexpr float kHorizon = 1e-3F,
-                kNowhere = -1e6F;  ///< least depth over the centre's; outside any image
+constexpr float kUsualWeight = 0.5F;                 ///< least mean sample weight of an uncovered segment
+constexpr double kMaxCovered = 1.0 / 3.0;            ///< of the ring
+constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth over the centre's; outside any image
 
 using Ints = std::int32_t __attribute__((vector_size(16)));
 
@@ -93,13 +90,24 @@ float middleOf(std::vector<float>& values) {
 
 }  // namespace
 
-double meanUncovered(std::vector<WeightedPart>& parts) {
+WeightedSum correlationOf(const std::vector<RingSegment>& segments) {
+  WeightedSum all;
+  for (const RingSegment& segment : segments) all.sum += segment.alike, all.weight += segment.weight;
+  return all;
+}
+
+void addParts(double value, const RingSegment& segment, std::vector<WeightedSum>& parts) {
+  if (segment.weight > 0.0) parts.push_back({value, segment.weight});
+  if (segment.covered_weight > 0.0) parts.push_back({0.0, segment.covered_weight});
+}
+
+double meanUncovered(std::vector<WeightedSum>& parts) {
   std::sort(parts.begin(), parts.end(),
-            [](const WeightedPart& a, const WeightedPart& b) { return a.sum * b.weight < b.sum * a.weight; });
+            [](const WeightedSum& a, const WeightedSum& b) { return a.sum * b.weight < b.sum * a.weight; });
   double all = 0.0, sum = 0.0;
-  for (const WeightedPart& part : parts) all += part.weight;
+  for (const WeightedSum& part : parts) all += part.weight;
   double covered = kMaxCovered * all;
-  for (const WeightedPart& part : parts) {
+  for (const WeightedSum& part : parts) {
     const double hidden = std::min(covered, part.weight);
     covered -= hidden;
     sum += part.sum * (1.0 - hidden / part.weight);
@@ -122,7 +130,7 @@ void RingView::set(const RingModel& model, const cv::Mat& image, const geometry:
 }
 
 RingView::Scale RingView::scaleFor(double quad_side_px, double wanted_px) {
-  const double most = std::min(wanted_px, model_->finest());
+  const double most = std::min(wanted_px, model_->levels.back().side_px);
   const int level =
       std::clamp(static_cast<int>(std::lround(std::log2(quad_side_px / most))), 0, pyramid_.deepest());
   return {&model_->level(quad_side_px / (1 << level)), &pyramid_.level(level), level};
@@ -220,20 +228,24 @@ RingSegment RingView::segment(int s) const {
   return segment;
 }
 
-void RingView::coverOutliers(int passes) {
-  for (int n = 0; n < passes; ++n) weighByResiduals();
+std::vector<RingSegment> RingView::segments() const {
+  std::vector<RingSegment> all(ring_->segmentCount());
+  for (int s = 0; s < ring_->segmentCount(); ++s) all[s] = segment(s);
+  return all;
 }
 
-// One step of iteratively reweighted least squares; segment gains and offsets follow from the weights.
-void RingView::weighByResiduals() {
+// Iteratively reweighted least squares; segment gains and offsets follow from the weights.
+void RingView::coverOutliers(int passes) {
   const std::size_t count = weights_.size();
   residuals_.resize(kRingChannels * count);
-  for (int s = 0; s < ring_->segmentCount(); ++s) leaveOver(segment(s), residuals_);
-  const float outlier = robustFactor(spreadOf(residuals_, kNoise));
-  const float *blue = residuals_.data(), *green = blue + count, *red = green + count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float squares = blue[i] * blue[i] + green[i] * green[i] + red[i] * red[i];
-    weights_[i] = static_cast<float>(weights_[i] > 0.0F) / (1.0F + outlier * squares);
+  for (int n = 0; n < passes; ++n) {
+    for (const RingSegment& segment : segments()) leaveOver(segment, residuals_);
+    const float outlier = robustFactor(spreadOf(residuals_, kNoise));
+    const float *blue = residuals_.data(), *green = blue + count, *red = green + count;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float squares = blue[i] * blue[i] + green[i] * green[i] + red[i] * red[i];
+      weights_[i] = static_cast<float>(weights_[i] > 0.0F) / (1.0F + outlier * squares);
+    }
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -24,26 +23,26 @@ struct RingSegment {
   float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times number of samples, with noise; all channels
   float noise = 0.0F;            ///< part of `xx`
   double alike = 0.0;            ///< correlation times `weight`
-  double weight = 0.0;  ///< information: grows with the samples, and slowly with their contrast, so that one
-                        ///< strong edge does not dominate
+  /// Information: grows with the samples, and slowly with their contrast, so that no strong edge dominates.
+  double weight = 0.0;
   double covered_weight = 0.0;  ///< weight it would gain if nothing stood before it
 };
 
-/// Weighted mean of the segments' correlations.
-struct RingCorrelation {
-  double alike = 0.0, most = 0.0;
-  void add(const RingSegment& segment) { alike += segment.alike, most += segment.weight; }
-  double value() const { return most > 0.0 ? alike / most : -1.0; }
+/// Values times their weights, and the weights.
+struct WeightedSum {
+  double sum = 0.0, weight = 0.0;
+  double mean() const { return weight > 0.0 ? sum / weight : -1.0; }
 };
 
-/// A segment's value times its weight, and the weight.
-struct WeightedPart {
-  double sum, weight;
-};
+/// Correlation of segments with the reference.
+WeightedSum correlationOf(const std::vector<RingSegment>& segments);
+
+/// Adds a value of this segment times its weight to the parts, and one for what is covered of it.
+void addParts(double value, const RingSegment& segment, std::vector<WeightedSum>& parts);
 
 /// Weighted mean without the worst third, which may be covered. Sorts the parts. Every part must have a
 /// positive weight.
-double meanUncovered(std::vector<WeightedPart>& parts);
+double meanUncovered(std::vector<WeightedSum>& parts);
 
 /// The image at the ring's samples, at one place and resolution. Keeps its memory.
 class RingView {
@@ -75,19 +74,13 @@ class RingView {
 
   const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
-
-  float meanLog() const;  ///< mean over the visible samples
-
-  /// Weight of a sample; 0 outside the image.
-  float weight(std::size_t i) const { return weights_[i]; }
-  const float* weights() const { return weights_.data(); }
+  std::vector<RingSegment> segments() const;
+  float meanLog() const;                                    ///< mean over the visible samples
+  const float* weights() const { return weights_.data(); }  ///< of the samples; 0 outside the image
 
   /// Lowers the weight of samples that differ from the reference far more than most. Where most of the ring
   /// fits well, the rest is covered; where nothing fits, all samples count.
   void coverOutliers(int passes);
-
-  /// Statistics of one segment, per channel and in total.
-  RingSegment segment(int s) const;
 
   /// Residuals of the segment's samples after removal of gain and offsets. \param residuals laid out as the
   /// ring's values
@@ -98,9 +91,9 @@ class RingView {
   float spreadOf(const std::vector<float>& residuals, float before);
 
  private:
+  RingSegment segment(int s) const;
   void place(const Eigen::Matrix3d& map, int level);
   int readPixels(const cv::Mat& image, bool keeps_weights);
-  void weighByResiduals();
 
   const RingModel* model_ = nullptr;
   const geometry::PinholeCamera* lens_ = nullptr;

@@ -12,9 +12,7 @@ constexpr float kTolerance = 8.0F;       ///< noise of the darkest place [grey l
 constexpr float kUneven = 0.08F;         ///< part of the haze that nearer objects may lack
 constexpr double kMinDifference = 25.0;  ///< least between the reference's frame and surround [grey levels]
 constexpr double kClearOfNoise = 5.0;    ///< standard deviations by which the rest must exceed noise
-constexpr double kTurn_rad =
-    0.05;  ///< standard deviation of the difference's direction, from paint and light
-constexpr double kMaxThroughHaze = 0.45;  ///< distance: 0.25 and less in fog, 0.7 for other paint
+constexpr double kTurn_rad = 0.05;       ///< standard deviation of the difference's direction
 
 }  // namespace
 
@@ -38,10 +36,6 @@ std::optional<double> distanceThroughHaze(const RingMeans& reference, const Ring
   const double across = (found - static_cast<float>(left) * expected).norm() / along;
   const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
   return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));
-}
-
-bool isSameThroughHaze(const RingMeans& reference, const RingMeans& seen) {
-  return distanceThroughHaze(reference, seen).value_or(1.0) < kMaxThroughHaze;
 }
 
 }  // namespace window_ingress::detection

@@ -31,7 +31,4 @@ std::optional<Haze> hazeThatLeaves(double left, const Eigen::Vector3f& reference
 /// distributions). \return nothing where there is no haze, or it leaves less than noise
 std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen);
 
-/// True if haze alone may explain the difference between the two.
-bool isSameThroughHaze(const RingMeans& reference, const RingMeans& seen);
-
 }  // namespace window_ingress::detection

@@ -13,9 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr int kMinBandPixels = 40;  ///< a band with fewer pixels is not compared
-constexpr double kGuessedFrame =
-    0.05;  ///< assumed frame width where the target fills the image [mean image sides]
+constexpr int kMinBandPixels = 40;      ///< a band with fewer pixels is not compared
+constexpr double kGuessedFrame = 0.05;  ///< width of the frame of a target that fills the image [mean sides]
 constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
 constexpr double kElsewherePart = 0.1;    ///< quantile of the distances at other places: `elsewhere_`
 constexpr double kLimitPart = 0.6;  ///< of `elsewhere_`: the limit, somewhat nearer to it than to the target
@@ -25,21 +24,10 @@ constexpr double kOwnRing = 0.25;      ///< places this close to the border lie 
 constexpr double kEvenDistance = 0.8;  ///< distance at which target and others are equally likely [limits]
 constexpr double kHalvingDistance = 0.2;  ///< distance that halves the odds [limits]
 
-std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening) {
-  return ringColours(image, opening, kMinBandPixels);
-}
-
 // The assumed opening of an image that shows only the target and its frame.
 Quadrilateral withinFrame(const cv::Size& size) {
   const double w = size.width - 1.0, h = size.height - 1.0, d = kGuessedFrame * 0.5 * (w + h);
   return {Vector2d(d, d), Vector2d(w - d, d), Vector2d(w - d, h - d), Vector2d(d, h - d)};
-}
-
-Quadrilateral placedAt(const Quadrilateral& quad, double scale, const Vector2d& centre) {
-  const Vector2d from = geometry::centroid(quad);
-  Quadrilateral placed;
-  for (int i = 0; i < 4; ++i) placed[i] = centre + scale * (quad[i] - from);
-  return placed;
 }
 
 // True if the border of the unit square passes through a ring of this half width about the point.
@@ -48,43 +36,33 @@ bool touchesFrame(const Vector2d& centre) {
   return std::abs(off) < 0.5 * kElsewhereScale + kOwnRing * kElsewhereScale;
 }
 
-// Distances of rings at other places of the image, whatever they show.
-std::vector<double> distancesElsewhere(const cv::Mat& image, const Quadrilateral& opening,
-                                       const RingColours& colours) {
+// Distance that most rings at other places of the image exceed, whatever they show.
+double distanceElsewhere(const cv::Mat& image, const Quadrilateral& opening, const RingColours& colours) {
   std::vector<double> distances;
   const geometry::UnitSquare square(opening);
   for (int i = 0; i < kElsewhereSteps; ++i)
     for (int k = 0; k < kElsewhereSteps; ++k) {
       const Vector2d at((i + 0.5) / kElsewhereSteps * image.cols, (k + 0.5) / kElsewhereSteps * image.rows);
       if (touchesFrame(square.fromImage(at))) continue;
-      if (const auto other = coloursOf(image, placedAt(opening, kElsewhereScale, at)))
+      Quadrilateral place = opening;
+      for (Vector2d& corner : place) corner = at + kElsewhereScale * (corner - geometry::centroid(opening));
+      if (const auto other = ringColours(image, place, kMinBandPixels))
         distances.push_back(bhattacharyya(colours.seen, other->seen));
     }
-  return distances;
-}
-
-double lowQuantile(std::vector<double> values) {
-  if (values.empty()) return 1.0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(kElsewherePart * values.size());
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-// 1 at kEvenDistance, halved with each kHalvingDistance. Colours found everywhere change the odds less.
-double oddsOf(double distance, double limit, double elsewhere) {
-  const double power = std::min(1.0, elsewhere / limit);
-  return std::exp2(power * (kEvenDistance - distance / limit) / kHalvingDistance);
+  if (distances.empty()) return 1.0;
+  const auto low = distances.begin() + static_cast<std::ptrdiff_t>(kElsewherePart * distances.size());
+  std::nth_element(distances.begin(), low, distances.end());
+  return *low;
 }
 
 }  // namespace
 
 ReferenceAppearance::ReferenceAppearance(const cv::Mat& image, const Quadrilateral& opening)
     : image_(image.clone()), opening_(opening) {
-  if (isGrey(image_)) return;
-  const auto colours = coloursOf(image_, opening_);
-  if (!colours) return;
+  const auto colours = ringColours(image_, opening_, kMinBandPixels);
+  if (!colours || isGrey(image_)) return;
   colours_ = std::make_shared<RingColours>(*colours);
-  elsewhere_ = lowQuantile(distancesElsewhere(image_, opening_, *colours));
+  elsewhere_ = distanceElsewhere(image_, opening_, *colours);
 }
 
 ReferenceAppearance::ReferenceAppearance(const cv::Mat& image)
@@ -120,13 +98,15 @@ std::optional<AppearanceMatch> ReferenceAppearance::compare(const cv::Mat& image
                                                             const Quadrilateral& opening,
                                                             const AppearanceParams& params) const {
   if (!colours_) return std::nullopt;
-  const auto candidate = coloursOf(image, opening);
+  const auto candidate = ringColours(image, opening, kMinBandPixels);
   if (!candidate) return std::nullopt;
   AppearanceMatch match;
   match.distance = bhattacharyya(*colours_, *candidate);
   if (adapted_) match.distance = std::min(match.distance, bhattacharyya(*adapted_, *candidate));
   match.limit = std::min(std::max(kLimitPart * elsewhere_, params.min_distance), params.max_distance);
-  match.odds = oddsOf(match.distance, std::max(match.limit, 1e-3), elsewhere_);
+  const double limit = std::max(match.limit, 1e-3);
+  const double power = std::min(1.0, elsewhere_ / limit);  // colours found everywhere change the odds less
+  match.odds = std::exp2(power * (kEvenDistance - match.distance / limit) / kHalvingDistance);
   return match;
 }
 
@@ -139,7 +119,7 @@ bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& openi
   const auto match = compare(image, opening, params);
   if (!match || !match->isLike() || !(rate > 0.0)) return false;
   const RingColours before = adapted_ ? *adapted_ : *colours_;
-  const RingColours view = *coloursOf(image, opening);
+  const RingColours view = *ringColours(image, opening, kMinBandPixels);
   double part = std::min(rate, 1.0);
   RingColours after = blended(before, view, part);
   for (int halvings = 0; bhattacharyya(*colours_, after) > kMaxDrift; ++halvings) {
@@ -150,8 +130,6 @@ bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& openi
   return true;
 }
 
-double ReferenceAppearance::drift() const {
-  return adapted_ && colours_ ? bhattacharyya(*colours_, *adapted_) : 0.0;
-}
+double ReferenceAppearance::drift() const { return adapted_ ? bhattacharyya(*colours_, *adapted_) : 0.0; }
 
 }  // namespace window_ingress::detection

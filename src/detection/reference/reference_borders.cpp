@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/alignment/rectangle_prior.hpp"
 #include "detection/reference/haze.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -13,19 +13,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
+using Bands = ReferenceBorders::Bands;
 
-constexpr double kBorderInward =
-    0.14;  ///< borders are searched this far inside a rough loop [its mean sides]
-constexpr double kBorderOutward = 0.40;  ///< borders are searched this far outside it [its mean sides]
-constexpr double kUnlikeScale = 0.10;    ///< colour difference that reduces a border's score by a factor of e
-constexpr double kContrastFull = 10.0;   ///< least change of the mean colour at a frame's end [grey levels]
-constexpr double kStepFull = 0.06;       ///< colour difference across a border that counts fully
+constexpr int kBands = ReferenceBorders::kBands;
+constexpr double kBandWidth = 0.02;                            ///< [mean sides of the opening]
+constexpr double kBorderInward = 0.14, kBorderOutward = 0.40;  ///< reach from a rough loop [its mean sides]
+constexpr double kUnlikeScale = 0.10;   ///< colour difference that reduces a border's score by a factor of e
+constexpr double kMinEndChange = 10.0;  ///< of the mean colour at the reference's frame's end [grey levels]
+constexpr double kStepFull = 0.06;      ///< colour difference across a border that counts fully
 constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness against chroma
 constexpr double kClear = 0.006;            ///< nearer to a border colours are mixed [mean sides]
-constexpr double kFaintestFrame =
-    0.10;                           ///< least difference of frame and wall; bricks and joints differ by 0.08
-constexpr double kEndReach = 0.03;  ///< search range about the expected end of a frame [mean sides]
-constexpr double kPeakPart = 0.7;   ///< of the largest change nearby, which the place itself must show
+constexpr double kFaintestFrame = 0.10;     ///< least difference of frame and wall; bricks and joints: 0.08
+constexpr double kEndReach = 0.03;          ///< search range about the expected end of a frame [mean sides]
+constexpr double kPeakPart = 0.7;     ///< of the largest change nearby, which the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< score of a border whose frame does not end there
 constexpr float kHazeFrom = 40.0F;    ///< haze is possible if the darkest place is brighter [grey levels]
 constexpr double kNoHaze = 1e3;
@@ -44,16 +44,8 @@ double difference(const Vector3f& a, const Vector3f& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1]) + kBrightnessWeight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
-}  // namespace
-
-void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
-                               const geometry::PinholeCamera* lens, const Effort& effort) {
-  measureSides(image, ideal, lens, {kBorderInward, kBorderOutward, aspect_, effort.along, effort.across},
-               sides_);
-}
-
 // Colours of the bands outwards from a border; false if the profile ends before the second.
-bool ReferenceBorders::coloursFrom(const SideProfile& profile, double border, Bands& colours) {
+bool coloursFrom(const SideProfile& profile, double border, Bands& colours) {
   int filled = 0;
   for (; filled < kBands; ++filled) {
     const double from = border + filled * kBandWidth;
@@ -65,7 +57,7 @@ bool ReferenceBorders::coloursFrom(const SideProfile& profile, double border, Ba
 }
 
 // Features of the bands; brightness relative to the outermost band.
-ReferenceBorders::Bands ReferenceBorders::featuresOf(const Bands& colours) {
+Bands featuresOf(const Bands& colours) {
   Bands bands;
   for (int b = 0; b < kBands; ++b) bands[b] = features(colours[b]);
   const float outermost = bands[kBands - 1][2];
@@ -73,12 +65,13 @@ ReferenceBorders::Bands ReferenceBorders::featuresOf(const Bands& colours) {
   return bands;
 }
 
-double ReferenceBorders::unlike(const Bands& colours, int side) const {
-  const Bands bands = featuresOf(colours);
+double unlike(const Bands& bands, const Bands& reference) {
   double sum = 0.0;
-  for (int b = 0; b < kBands; ++b) sum += difference(bands[b], reference_[side][b]);
+  for (int b = 0; b < kBands; ++b) sum += difference(bands[b], reference[b]);
   return sum / kBands;
 }
+
+}  // namespace
 
 // As `unlike`, after removal of the haze that fits best; kNoHaze if none is possible.
 double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const {
@@ -93,21 +86,22 @@ double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const
   if (!haze) return kNoHaze;
   Bands clear;
   for (int b = 0; b < kBands; ++b) clear[b] = haze->off(colours[b]).cwiseMax(0.0F);
-  return unlike(clear, side);
+  return unlike(featuresOf(clear), reference_[side]);
 }
 
 void ReferenceBorders::learn(const cv::Mat& image, const Quadrilateral& opening) {
   known_ = false;
   if (image.type() != CV_8UC3 || image.empty() || !geometry::isConvex(opening)) return;
   aspect_ = geometry::aspectRatio(opening);
-  measure(image, opening, nullptr, kFine);
+  measureSides(image, opening, nullptr, {kBorderInward, kBorderOutward, aspect_, kFine.along, kFine.across},
+               sides_);
   double frame = 0.0;
   for (int i = 0; i < 4; ++i) {
     if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;
     reference_[i] = featuresOf(reference_colours_[i]);
     double end = 0.0;
     const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
-    frame_widths_[i] = contrast > kContrastFull ? end : 0.0;
+    frame_widths_[i] = contrast > kMinEndChange ? end : 0.0;
     frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
   }
   frameless_ = frame < kFaintestFrame;
@@ -133,20 +127,18 @@ double ReferenceBorders::choose(int side, double& border) const {
   double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
-    const double here = profile.change(k);
-    const double at = profile.at(k);
+    const double here = profile.change(k), at = profile.at(k);
     const bool peak = here >= kMinChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
-    const double ends = framed ? frameEnds(side, at) : 1.0;
+    const double ends = frameEnds(side, at);
     if (!peak && !(framed && ends > kSureEnd)) continue;
     Vector3f within;
     if (!coloursFrom(profile, at, bands) || !profile.mean(at - kBandWidth, at - kClear, within)) continue;
-    double off = unlike(bands, side);
+    const Bands outward = featuresOf(bands);
+    double off = unlike(outward, reference_[side]);
     if (framed && darkest_ > kHazeFrom) off = std::min(off, unlikeThroughHaze(bands, side));
     within = features(within);
     within[2] -= features(bands[kBands - 1])[2];
-    Vector3f beside = features(bands[0]);
-    beside[2] -= features(bands[kBands - 1])[2];
-    const double goes_on = difference(within, beside);
+    const double goes_on = difference(within, outward[0]);
     // Where the frame's end gives the position, a faint border suffices.
     const double visible = framed ? ends * (peak ? 1.0 : kPredicted) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kBorderInward / kFarAway;
@@ -161,9 +153,8 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
                                                                   const geometry::PinholeCamera* camera,
                                                                   const Effort& effort) {
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
-  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
-  const Quadrilateral ideal = geometry::undistorted(rough, lens);
-  measure(image, ideal, lens, effort);
+  measureSides(image, rough, camera, {kBorderInward, kBorderOutward, aspect_, effort.along, effort.across},
+               sides_);
   darkest_ = 255.0F;
   for (const SideProfile& side : sides_)
     for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());
@@ -176,9 +167,10 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
     least = std::min(least, border_score), mean_score += 0.25 * border_score;
   }
   located.border_score = std::sqrt(least * mean_score);
-  for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
+  for (int i = 0; i < 4; ++i) borders[i] /= shapeOf(aspect_)[i % 2 ? 0 : 1];
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
-  const geometry::UnitSquare map(ideal);
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  const geometry::UnitSquare map(geometry::undistorted(rough, lens));
   located.quad = geometry::distorted({map.toImage({left, top}), map.toImage({right, top}),
                                       map.toImage({right, bottom}), map.toImage({left, bottom})},
                                      lens);

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "detection/reference/side_profile.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 
@@ -17,14 +12,12 @@ namespace window_ingress::detection {
 /// are the same from any direction. What is seen through the opening does not count.
 class ReferenceBorders {
  public:
-  static constexpr int kBands = 7;            ///< outwards from the border
-  static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
-
+  static constexpr int kBands = 7;  ///< outwards from the border
+  using Bands = std::array<Eigen::Vector3f, kBands>;
   static constexpr double kSureBorderScore = 0.3;  ///< score of borders that surely match the reference
 
   /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
-  void forget() { known_ = false; }
   bool known() const { return known_; }
 
   /// True if the reference shows no frame. Then its colours do not help, see `RingMatcher`.
@@ -46,13 +39,6 @@ class ReferenceBorders {
                                 const geometry::PinholeCamera* camera, const Effort& effort);
 
  private:
-  using Bands = std::array<Eigen::Vector3f, kBands>;
-
-  void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal,
-               const geometry::PinholeCamera* lens, const Effort& effort);
-  static bool coloursFrom(const SideProfile& profile, double border, Bands& colours);
-  static Bands featuresOf(const Bands& colours);
-  double unlike(const Bands& colours, int side) const;
   double unlikeThroughHaze(const Bands& colours, int side) const;
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "detection/candidates/candidate_gates.hpp"
 #include "detection/quad_sameness.hpp"
 #include "detection/reference/haze.hpp"
-#include "detection/reference/ring_histogram.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -16,23 +13,19 @@ constexpr double kMaxCertain = 0.99;        ///< of a score, before the referenc
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are searched
 constexpr std::size_t kPlacesFine = 3;      ///< best places, which are searched finely
 constexpr int kVariantsLocated = 2;         ///< loops per place from which the search starts
-constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
+constexpr float kColourOfFrames = 1.75F;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< limits round a frame, see RingMatch
-constexpr double kFaithfulBehind = 0.9;  ///< the limit for a covered wall without a frame
-constexpr double kSureUncovered = 0.92;  ///< hardly anything but the target reaches this
-constexpr double kNeverSure = 2.0;       ///< more than any correlation
-constexpr double kSureOfWall = 0.68,
-                 kSureOfFrame = 0.85;  ///< correlations that suffice without a frame's colours
+constexpr double kFaithfulBehind = 0.9;                    ///< the limit for a covered wall without a frame
+constexpr double kSureUncovered = 0.92;                    ///< hardly anything but the target reaches this
+constexpr double kNeverSure = 2.0;                         ///< more than any correlation
+constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlations that suffice without colours
 constexpr int kAllBorders = 4;
 constexpr int kOpenBorders = 3;            ///< borders whose inside must differ from the outside
 constexpr double kMinClearContrast = 0.8;  ///< of a ring without haze, over its correlation
+constexpr double kMaxThroughHaze = 0.45;   ///< distance: 0.25 and less in fog, 0.7 for other paint
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;       ///< relative difference of mean colours; true openings have 0.2 to 1
 constexpr double kUnlocatedPart = 0.7;  ///< factor of the score of a loop that lacks the reference's borders
-
-bool differ(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return (a - b).norm() > 0.5 * kMinStep * (a + b).norm();
-}
 
 // Bayes: treats the score as a probability below certainty, and applies these odds.
 double updated(double score, double odds) {
@@ -40,15 +33,17 @@ double updated(double score, double odds) {
   return prior * odds / (1.0 - prior + prior * odds);
 }
 
-// Keeps the likeliest loops at each place; the others are variants of them.
-void choosePlaces(const std::vector<ScoredCandidate>& candidates, std::vector<std::size_t>& places) {
-  places.clear();
-  for (std::size_t i = 0; i < candidates.size() && places.size() < kPlacesLocated; ++i) {
-    int variants = 0;
-    for (std::size_t place : places)
-      variants += Sameness(candidates[place].quad).samePlace(candidates[i].quad);
-    if (variants < kVariantsLocated) places.push_back(i);
+// The likeliest loops at each place; the others are variants of them.
+std::vector<const ScoredCandidate*> placesOf(const std::vector<ScoredCandidate>& candidates) {
+  std::vector<const ScoredCandidate*> places;
+  for (const ScoredCandidate& candidate : candidates) {
+    if (places.size() == kPlacesLocated) break;
+    const auto variants = std::count_if(places.begin(), places.end(), [&](const ScoredCandidate* place) {
+      return Sameness(place->quad).samePlace(candidate.quad);
+    });
+    if (variants < kVariantsLocated) places.push_back(&candidate);
   }
+  return places;
 }
 
 }  // namespace
@@ -65,21 +60,20 @@ const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& image) {
 
 void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
   reference_ = std::move(reference);
-  borders_.forget();
-  ring_.forget();
-  shape_.forget();
+  borders_ = {}, ring_ = {}, shape_ = {};
   frame_colours_.reset();
   is_grey_ = reference_ && isGrey(reference_->image());
-  if (!reference_ || !reference_->openingIsKnown() ||
-      !ReferenceAppearance::faultOf(reference_->image(), reference_->opening()).empty())
-    return;
-  borders_.learn(inChannels(reference_->image()), reference_->opening());
-  shape_.learn(reference_->image(), reference_->opening());
-  ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
-              shape_.aspect(), !frameless());
-  open_borders_ = openBorders(reference_->image(), reference_->opening(), nullptr);
-  beyond_ = framesBeyond(inChannels(reference_->image()), reference_->opening(), nullptr, sides_);
-  if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), 1);
+  if (!reference_ || !reference_->openingIsKnown()) return;
+  const cv::Mat& image = reference_->image();
+  const geometry::Quadrilateral& opening = reference_->opening();
+  if (!ReferenceAppearance::faultOf(image, opening).empty()) return;
+  borders_.learn(inChannels(image), opening);
+  shape_.learn(image, opening);
+  ring_.learn(inChannels(image), opening, frameless() ? 1.0F : kColourOfFrames, shape_.aspect(),
+              !frameless());
+  open_borders_ = openBorders(image, opening, nullptr);
+  beyond_ = framesBeyond(inChannels(image), opening, nullptr, sides_);
+  if (!frameless()) frame_colours_ = ringColours(image, opening, 1);
 }
 
 // The candidate with its borders moved to the reference's, if they are found near it.
@@ -102,17 +96,17 @@ std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
 }
 
 // Finds the reference's borders at all places, and searches the best ones finely.
-void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                               const std::vector<ScoredCandidate>& candidates) {
-  located_.clear();
-  choosePlaces(candidates, places_);
-  for (std::size_t i : places_)
-    if (auto candidate = locate(image, camera, candidates[i], ReferenceBorders::kCoarse))
-      located_.push_back(*candidate);
-  sortByRank(located_);
-  for (std::size_t i = 0; i < std::min(located_.size(), kPlacesFine); ++i)
-    if (auto candidate = locate(image, camera, located_[i], ReferenceBorders::kFine))
-      located_[i] = *candidate;
+std::vector<ScoredCandidate> ReferenceJudge::locateAll(const cv::Mat& image,
+                                                       const geometry::PinholeCamera* camera,
+                                                       const std::vector<ScoredCandidate>& candidates) {
+  std::vector<ScoredCandidate> located;
+  for (const ScoredCandidate* place : placesOf(candidates))
+    if (auto candidate = locate(image, camera, *place, ReferenceBorders::kCoarse))
+      located.push_back(*candidate);
+  sortByRank(located);
+  for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
+    if (auto candidate = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *candidate;
+  return located;
 }
 
 // Compares the candidates' frames with the reference's; false if none can be compared.
@@ -127,9 +121,10 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& c
 }
 
 // Lowers the score of loops whose borders were not located. Drops those where borders were surely located.
-void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const {
+void ReferenceJudge::weighOthers(const cv::Mat& image, const std::vector<ScoredCandidate>& located,
+                                 std::vector<ScoredCandidate>& candidates) const {
   for (ScoredCandidate& candidate : candidates) {
-    const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
+    const bool sure = std::any_of(located.begin(), located.end(), [&](const ScoredCandidate& place) {
       return place.border_score > ReferenceBorders::kSureBorderScore &&
              Sameness(place.quad).samePlace(candidate.quad);
     });
@@ -152,21 +147,21 @@ bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCa
                                  std::vector<ScoredCandidate>& candidates) {
   if (!compares(image)) return false;
   if (!borders_.known()) return weigh(image, candidates);
-  locateAll(inChannels(image), camera, candidates);
-  weigh(image, located_);
-  weighOthers(image, candidates);
-  candidates.insert(candidates.end(), located_.begin(), located_.end());
+  auto located = locateAll(inChannels(image), camera, candidates);
+  weigh(image, located);
+  weighOthers(image, located, candidates);
+  candidates.insert(candidates.end(), located.begin(), located.end());
   return true;
 }
 
 bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        std::vector<ScoredCandidate>& candidates) {
   if (!knowsSurroundings(image)) return false;
-  located_ = ring_.align(inChannels(image), camera, candidates);
-  for (ScoredCandidate& candidate : located_)
+  auto located = ring_.align(inChannels(image), camera, candidates);
+  for (ScoredCandidate& candidate : located)
     candidate.appearance = reference_->compare(image, candidate.quad, appearance_);
   for (ScoredCandidate& candidate : candidates) candidate.verdict = RejectReason::kDuplicate;
-  candidates.insert(candidates.end(), located_.begin(), located_.end());
+  candidates.insert(candidates.end(), located.begin(), located.end());
   return true;
 }
 
@@ -219,52 +214,46 @@ int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
   return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
 }
 
-bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                            const RingMatch& match) const {
-  if (!frame_colours_ || match.contrast >= kMinClearContrast * match.correlation) return false;
-  const auto seen = ringColours(image, corners, 1);
-  return seen && isSameThroughHaze(frame_colours_->means, seen->means);
-}
-
 std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring, const cv::Mat& image,
                                                      const std::optional<AppearanceMatch>& frame) {
   const RingMatch match = ring_.judged(ring.quad);
-  return isHazy(image, ring.quad, match) ? std::nullopt : objectionTo(match, frame);
+  const bool is_pale = match.contrast < kMinClearContrast * match.correlation;
+  const auto seen = is_pale && frame_colours_ ? ringColours(image, ring.quad, 1) : std::nullopt;
+  if (seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze)
+    return std::nullopt;
+  return objectionTo(match, frame);
 }
 
 std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,
                                                           const cv::Mat& image,
                                                           const geometry::PinholeCamera* camera,
                                                           double coarsest_px) {
-  if (!compares(image)) return std::nullopt;
+  if (!knowsSurroundings(image)) return std::nullopt;
   const auto ring = ring_.alignedAt(inChannels(image), camera, corners, coarsest_px);
-  if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
+  if (!ring || ring->correlation < min_correlation_) return std::nullopt;
   return ring;
 }
 
 std::optional<AlignedRing> ReferenceJudge::uncovered(const geometry::Quadrilateral& corners,
                                                      const cv::Mat& image,
                                                      const geometry::PinholeCamera* camera) {
-  return compares(image) ? ring_.uncovered(inChannels(image), camera, corners) : std::nullopt;
+  return knowsSurroundings(image) ? ring_.uncovered(inChannels(image), camera, corners) : std::nullopt;
 }
 
 int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                 const geometry::PinholeCamera* camera) {
-  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
-  measureSides(inChannels(image), geometry::undistorted(corners, lens), lens, {kStepReach, kStepReach},
-               sides_);
+  measureSides(inChannels(image), corners, camera, {kStepReach, kStepReach}, sides_);
   return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), [](const SideProfile& side) {
     Eigen::Vector3f within, without;
     return side.mean(-kStepTo, -kStepFrom, within) && side.mean(kStepFrom, kStepTo, without) &&
-           differ(within, without);
+           (within - without).norm() > 0.5 * kMinStep * (within + without).norm();
   }));
 }
 
 bool ReferenceJudge::frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                  const geometry::PinholeCamera* camera) {
   if (frameless() || !compares(image)) return false;
-  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
-  const FrameEnds here = framesBeyond(inChannels(image), geometry::undistorted(corners, lens), lens, sides_);
+  const FrameEnds here = framesBeyond(inChannels(image), corners, camera, sides_);
   for (int side = 0; side < 4; ++side)
     for (int end = 0; end < 2; ++end)
       if (here[side][end] && !beyond_[side][end]) return true;

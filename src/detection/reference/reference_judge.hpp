@@ -1,20 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <opencv2/core.hpp>
-#include <optional>
 #include <vector>
 
 #include "detection/alignment/ring_matcher.hpp"
-#include "detection/candidates/candidate_gates.hpp"
-#include "detection/candidates/candidate_search.hpp"
-#include "detection/reference/frame_ends.hpp"
 #include "detection/reference/reference_borders.hpp"
 #include "detection/reference/reference_shape.hpp"
 #include "detection/reference/ring_histogram.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/detector_params.hpp"
-#include "window_ingress/detection/reference_appearance.hpp"
 
 namespace window_ingress::detection {
 
@@ -27,20 +20,15 @@ class ReferenceJudge {
   void learn(std::shared_ptr<const ReferenceAppearance> reference);
   const std::shared_ptr<const ReferenceAppearance>& reference() const { return reference_; }
 
-  /// True if candidates can be compared by the colours about their borders.
-  bool knowsBorders() const { return borders_.known(); }
-
-  /// True if the reference shows no frame.
-  bool frameless() const { return borders_.frameless(); }
-
+  bool knowsBorders() const { return borders_.known(); }   ///< candidates can be compared by these
+  bool frameless() const { return borders_.frameless(); }  ///< the reference shows no frame
   /// Colour of the reference's frame, see `RingMeans::paint`; nothing if it has none.
   std::optional<Eigen::Vector3f> paint() const;
 
-  /// True if the surroundings of the reference's opening can be compared with the image.
-  bool knowsSurroundings(const cv::Mat& image) const { return compares(image) && ring_.known(); }
-
   /// False without a reference, or if only one of reference and image has colour.
   bool compares(const cv::Mat& image) const;
+  /// True if the surroundings of the reference's opening can be compared with the image.
+  bool knowsSurroundings(const cv::Mat& image) const { return compares(image) && ring_.known(); }
 
   /// Weighs the candidates by their frames and adds candidates with located borders. Returns false, and
   /// changes nothing, if they cannot be compared.
@@ -111,14 +99,14 @@ class ReferenceJudge {
                   const geometry::PinholeCamera* camera);
   bool hasOwnFrame() const;
   double sureCorrelation() const;
-  bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners, const RingMatch& match) const;
   const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
-  void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                 const std::vector<ScoredCandidate>& candidates);
+  std::vector<ScoredCandidate> locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                         const std::vector<ScoredCandidate>& candidates);
   bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const;
-  void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const;
+  void weighOthers(const cv::Mat& image, const std::vector<ScoredCandidate>& located,
+                   std::vector<ScoredCandidate>& candidates) const;
 
   AppearanceParams appearance_;
   double min_correlation_;
@@ -133,8 +121,6 @@ class ReferenceJudge {
   bool is_grey_ = false;  ///< the reference is grey: only brightness counts
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;
-  std::vector<std::size_t> places_;  ///< indices of the candidates to locate
-  std::vector<ScoredCandidate> located_;
 };
 
 }  // namespace window_ingress::detection

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -43,20 +42,15 @@ Eigen::Matrix3d sightOf(const Quadrilateral& ideal, const PinholeCamera& camera)
   return geometry::UnitSquare(rays).matrix();
 }
 
-// NaN if this is no rectangle's image.
-double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
-  const Eigen::Matrix3d map = sightOf(ideal, camera);
-  return map.col(0).norm() / map.col(1).norm();
-}
-
-// Aspects for all likely focal lengths.
+// Aspects for all likely focal lengths; NaN if this is no rectangle's image.
 std::array<double, std::size(kFocalLengths)> likelyAspects(const Quadrilateral& quad, const cv::Size& image) {
   std::array<double, std::size(kFocalLengths)> aspects{};
   PinholeCamera camera;
   camera.cx = 0.5 * (image.width - 1), camera.cy = 0.5 * (image.height - 1);
   for (std::size_t i = 0; i < aspects.size(); ++i) {
     camera.fx = camera.fy = kFocalLengths[i] * std::max(image.width, image.height);
-    aspects[i] = aspectOf(quad, camera);
+    const Eigen::Matrix3d map = sightOf(quad, camera);
+    aspects[i] = map.col(0).norm() / map.col(1).norm();
   }
   return aspects;
 }
@@ -88,13 +82,6 @@ double paintedWidth(const SideProfile& side, double expected) {
   return width;
 }
 
-// Mean of the two middle values; their difference adds to its spread.
-Measured middleOf(std::vector<double>& values, double least_sigma) {
-  std::sort(values.begin(), values.end());
-  const double low = values[(values.size() - 1) / 2], high = values[values.size() / 2];
-  return {0.5 * (low + high), std::hypot(least_sigma, kScatter * (high - low))};
-}
-
 }  // namespace
 
 // Chi of the two quantities, with their covariance by the slopes. For small misfits it equals what a fit of
@@ -121,27 +108,23 @@ std::optional<double> rectangleMisfit(const Quadrilateral& ideal, const std::arr
 }
 
 void ReferenceShape::learn(const cv::Mat& image, const Quadrilateral& opening) {
-  forget();
+  *this = {};
   if (image.empty() || !geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
   const auto aspects = likelyAspects(opening, image.size());
   const auto [least_at, most_at] = std::minmax_element(aspects.begin(), aspects.end());
   const double least = *least_at, most = *most_at;
   if (!(most > 0.0 && most < 1e9)) return;
-  aspect_ = Measured{std::sqrt(least * most), 0.5 * (most - least)};
+  const double middle = std::sqrt(least * most);
+  aspect_ = OpeningAspect{middle, std::max(kAspectSigma, 0.5 * (most - least) / middle)};
   seen_aspect_ = geometry::aspectRatio(opening);
   if (image.type() != CV_8UC3) return;
   measureSides(image, opening, nullptr, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   const double thinnest = std::max(kThinnest, kBlur_px / geometry::meanSide(opening));
   for (int i = 0; i < 4; ++i) {
     double end = 0.0;
-    if (sides_[i].largestChange(thinnest, kWidest, &end) < kMinFrameContrast) continue;
-    frame_[i] = paintedWidth(sides_[i], end);
+    if (sides_[i].largestChange(thinnest, kWidest, &end) >= kMinFrameContrast)
+      frame_[i] = paintedWidth(sides_[i], end);
   }
-}
-
-std::optional<OpeningAspect> ReferenceShape::aspect() const {
-  if (!aspect_) return std::nullopt;
-  return OpeningAspect{aspect_->value, std::max(kAspectSigma, aspect_->sigma / aspect_->value)};
 }
 
 std::optional<Rejection> ReferenceShape::inAspect(const Quadrilateral& corners,
@@ -156,38 +139,32 @@ std::optional<Rejection> ReferenceShape::inAspect(const Quadrilateral& corners,
     return Rejection{RejectReason::kOtherAspect, off, kMaxFactor};
   }
   const auto seen = rectangleMisfit(geometry::undistorted(corners, geometry::lensOf(camera)), covariance,
-                                    *camera, *aspect());
+                                    *camera, *aspect_);
   if (!seen || *seen <= kMaxSigmas) return std::nullopt;
   return Rejection{RejectReason::kOtherAspect, *seen, kMaxSigmas};
 }
 
-std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Quadrilateral& corners,
-                                                   const PinholeCamera* camera) {
-  if (image.type() != CV_8UC3 || !geometry::isFinite(corners) || !geometry::isConvex(corners))
-    return std::nullopt;
-  if (*std::max_element(frame_.begin(), frame_.end()) <= 0.0) return std::nullopt;
-  const PinholeCamera* lens = geometry::lensOf(camera);
-  const Quadrilateral ideal = geometry::undistorted(corners, lens);
-  measureSides(image, ideal, lens, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
-  ratios_.clear();
-  double widths = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    if (frame_[i] <= 0.0) continue;
-    const double width = paintedWidth(sides_[i], frame_[i]);
-    if (width > 0.0) ratios_.push_back(width / frame_[i]), widths += frame_[i];
-  }
-  if (static_cast<int>(ratios_.size()) < kFewestSides) return std::nullopt;
-  return middleOf(ratios_,
-                  kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * geometry::meanSide(ideal)));
-}
-
+// The difference of the two middle ratios adds to the spread of their mean.
 std::optional<Rejection> ReferenceShape::inFrame(const cv::Mat& image, const Quadrilateral& corners,
                                                  const PinholeCamera* camera) {
-  const auto seen = frameRatio(image, corners, camera);
-  if (!seen) return std::nullopt;
-  const double spread = kFrameSlack + kMaxSigmas * seen->sigma;
-  if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
-  return Rejection{RejectReason::kOtherFrame, seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};
+  if (image.type() != CV_8UC3 || !geometry::isFinite(corners) || !geometry::isConvex(corners))
+    return std::nullopt;
+  measureSides(image, corners, camera, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
+  std::vector<double> ratios;
+  double widths = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double width = frame_[i] > 0.0 ? paintedWidth(sides_[i], frame_[i]) : 0.0;
+    if (width > 0.0) ratios.push_back(width / frame_[i]), widths += frame_[i];
+  }
+  if (static_cast<int>(ratios.size()) < kFewestSides) return std::nullopt;
+  std::sort(ratios.begin(), ratios.end());
+  const double low = ratios[(ratios.size() - 1) / 2], high = ratios[ratios.size() / 2],
+               seen = 0.5 * (low + high);
+  const double side_px = geometry::meanSide(geometry::undistorted(corners, geometry::lensOf(camera)));
+  const double least_sigma = kFrameSigmaPx * static_cast<double>(ratios.size()) / (widths * side_px);
+  const double spread = kFrameSlack + kMaxSigmas * std::hypot(least_sigma, kScatter * (high - low));
+  if (std::abs(seen - 1.0) <= spread) return std::nullopt;
+  return Rejection{RejectReason::kOtherFrame, seen, seen > 1.0 ? 1.0 + spread : 1.0 - spread};
 }
 
 }  // namespace window_ingress::detection

@@ -1,16 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
 
 #include "detection/alignment/rectangle_prior.hpp"
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/reference/side_profile.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 
@@ -24,21 +18,15 @@ std::optional<double> rectangleMisfit(const geometry::Quadrilateral& ideal,
                                       const std::array<Eigen::Matrix2d, 4>& covariance,
                                       const geometry::PinholeCamera& camera, const OpeningAspect& aspect);
 
-/// A value measured in an image.
-struct Measured {
-  double value = 0.0, sigma = 0.0;
-};
-
 /// The target's shape in the reference image: aspect of the opening, and width of its frame relative to the
 /// opening's sides. Both are the same from any viewpoint; one image does not show size.
 class ReferenceShape {
  public:
   /// \param image from an unknown camera, whose focal length is assumed to be half to twice the longer side
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
-  void forget() { aspect_.reset(), frame_.fill(0.0); }
 
-  /// Aspect of the opening; nothing before `learn`.
-  std::optional<OpeningAspect> aspect() const;
+  /// Aspect of the opening, uncertain as the focal length; nothing before `learn`.
+  const std::optional<OpeningAspect>& aspect() const { return aspect_; }
 
   /// Why a shape is not the reference's; nothing if it is, or if that cannot be decided.
   /// \param corners fitted, raw pixels \param camera null: unknown, as in `learn`; then the test is coarse
@@ -51,14 +39,10 @@ class ReferenceShape {
                                    const geometry::PinholeCamera* camera);
 
  private:
-  std::optional<Measured> frameRatio(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                     const geometry::PinholeCamera* camera);
-
-  std::optional<Measured> aspect_;  ///< sigma: half the range over all focal lengths
+  std::optional<OpeningAspect> aspect_;
   double seen_aspect_ = 1.0;
   std::array<double, 4> frame_{};  ///< of each side [mean sides of the opening]; 0: no frame
   std::array<SideProfile, 4> sides_;
-  std::vector<double> ratios_;
 };
 
 }  // namespace window_ingress::detection

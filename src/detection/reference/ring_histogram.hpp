@@ -13,13 +13,14 @@ namespace window_ingress::detection {
 /// Each pixel is shared between the four nearest bins. Brightness, and what is seen through the opening, do
 /// not count.
 struct RingHistogram {
-  static constexpr int kBands = 2;  ///< frame, surround
+  static constexpr int kBands = 2;                ///< frame, surround
+  static constexpr double kFrameWidth = 0.05;     ///< outer edge of the frame's band [mean sides]
+  static constexpr double kSurroundWidth = 0.14;  ///< outer edge of the surround's band [mean sides]
   static constexpr int kBins = 8, kCells = kBins * kBins;
 
   struct Band {
-    std::array<float, kCells>
-        share{};          ///< of the band's pixels; the sum is 1, or 0 if the band is not visible
-    double pixels = 0.0;  ///< distinct image pixels in it; 0: too few to count
+    std::array<float, kCells> share{};  ///< of the pixels; the sum is 1, or 0 if the band is not visible
+    double pixels = 0.0;                ///< distinct image pixels in it; 0: too few to count
   };
   std::array<Band, kBands> bands;
 };
@@ -56,6 +57,10 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 
 /// The smaller of the plain distance and the distance through haze.
 double bhattacharyya(const RingColours& reference, const RingColours& seen);
+
+/// The line round an opening at this distance from its border [mean sides of the opening]. Its corners are
+/// not finite where the window's plane is seen edge-on.
+geometry::Quadrilateral ringLine(const geometry::Quadrilateral& opening, double distance);
 
 /// Moves the histogram of `from` towards that of `to`: 0 leaves it, 1 replaces it. The means, and bands that
 /// are not visible in both, do not change.

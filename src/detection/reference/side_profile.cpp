@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window_ingress/geometry/quadrilateral.hpp"
+#include "detection/alignment/rectangle_prior.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -13,6 +13,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 
 constexpr int kFewestAcross = 12;
+constexpr double kFrameFrom = 0.015, kFrameTo = 0.06;   ///< band of the frame, from a border [mean sides]
+constexpr double kWallFrom = 0.16, kWallTo = 0.2;       ///< band of the wall, from a border [mean sides]
+constexpr double kBeyondFrom = 0.08, kBeyondTo = 0.15;  ///< beyond a side's end [sides]
+constexpr double kAlikePart = 0.2;  ///< of the contrast of frame and wall: colours of one frame differ less
+constexpr int kFewestAlike = 3;     ///< sides of a frame that must agree in colour
 
 // Point beside side `i` of the unit square: t along the side, `out` outwards [sides].
 Vector2d beside(int i, double t, double out) {
@@ -79,11 +84,13 @@ double SideProfile::largestChange(double from, double to, double* place) const {
   return most;
 }
 
-void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
-                  const geometry::PinholeCamera* lens, const ProfileReach& reach,
+void measureSides(const cv::Mat& image, const geometry::Quadrilateral& loop,
+                  const geometry::PinholeCamera* camera, const ProfileReach& reach,
                   std::array<SideProfile, 4>& sides) {
+  const geometry::PinholeCamera* lens = geometry::lensOf(camera);
+  const geometry::Quadrilateral ideal = geometry::undistorted(loop, lens);
   const geometry::UnitSquare map(ideal);
-  const double width = 2.0 * reach.aspect / (1.0 + reach.aspect), height = 2.0 / (1.0 + reach.aspect);
+  const Vector2d shape = shapeOf(reach.aspect);
   const double length = reach.inward + reach.outward;
   const int steps =
       std::clamp(static_cast<int>(length * geometry::meanSide(ideal)), kFewestAcross, reach.across);
@@ -92,13 +99,39 @@ void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
     profile.first = -reach.inward;
     profile.step = length / steps;
     profile.means.clear();
-    const double across = i % 2 ? width : height;
+    const double across = i % 2 ? shape.x() : shape.y();
     Vector3f mean;
-    for (int k = 0; k < steps; ++k) {
-      if (!meanAlong(image, map, lens, i, profile.at(k) / across, reach, mean)) break;
+    for (int k = 0; k < steps && meanAlong(image, map, lens, i, profile.at(k) / across, reach, mean); ++k)
       profile.means.push_back(mean);
-    }
   }
+}
+
+FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& loop,
+                       const geometry::PinholeCamera* camera, std::array<SideProfile, 4>& sides) {
+  std::array<Vector3f, 4> frames, walls;
+  std::array<bool, 4> seen{};
+  ProfileReach reach{0.0, kWallTo + kFrameFrom};
+  measureSides(image, loop, camera, reach, sides);
+  for (int i = 0; i < 4; ++i)
+    seen[i] = sides[i].mean(kFrameFrom, kFrameTo, frames[i]) && sides[i].mean(kWallFrom, kWallTo, walls[i]);
+  const auto is_frame = [&](const Vector3f& colour, int side) {
+    return (colour - frames[side]).norm() < kAlikePart * (walls[side] - frames[side]).norm();
+  };
+  const auto tells = [&](int side) {
+    int alike = 0;
+    for (int k = 0; k < 4; ++k) alike += seen[k] && is_frame(frames[k], side);
+    return seen[side] && alike >= kFewestAlike;
+  };
+  FrameEnds beyond{};
+  for (int end = 0; end < 2; ++end) {
+    reach.from = end ? 1.0 + kBeyondFrom : -kBeyondTo;
+    reach.to = end ? 1.0 + kBeyondTo : -kBeyondFrom;
+    measureSides(image, loop, camera, reach, sides);
+    Vector3f colour;
+    for (int i = 0; i < 4; ++i)
+      beyond[i][end] = tells(i) && sides[i].mean(kFrameFrom, kFrameTo, colour) && is_frame(colour, i);
+  }
+  return beyond;
 }
 
 }  // namespace window_ingress::detection

@@ -36,10 +36,17 @@ struct ProfileReach {
 };
 
 /// Measures the profiles of all four sides. A profile ends where the image does.
-/// \param image CV_8UC3 \param ideal convex, canonical order, pixels of the undistorted image
-/// \param lens null: no distortion
-void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
-                  const geometry::PinholeCamera* lens, const ProfileReach& reach,
+/// \param image CV_8UC3 \param loop convex, canonical order, raw pixels \param camera null: no distortion
+void measureSides(const cv::Mat& image, const geometry::Quadrilateral& loop,
+                  const geometry::PinholeCamera* camera, const ProfileReach& reach,
                   std::array<SideProfile, 4>& sides);
+
+/// For each side of a window: whether its frame is also visible before its beginning and beyond its end.
+using FrameEnds = std::array<std::array<bool, 2>, 4>;
+
+/// Finds where frames continue, by their contrast with the wall, in any haze. Only sides count whose frame
+/// looks like those of two others. \param sides buffers, reused; others as above
+FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& loop,
+                       const geometry::PinholeCamera* camera, std::array<SideProfile, 4>& sides);
 
 }  // namespace window_ingress::detection

@@ -78,13 +78,12 @@ TEST(RectanglePrior, TellsHowFarAViewIsFromThoseOfTheRectangle) {
 // The left side was placed on something within the opening.
 TEST(RectanglePrior, ASideIsPlacedByTheThreeOthers) {
   const RectanglePrior prior(camera(), {kAspect, 0.01});
-  geometry::Quadrilateral truth, seen, whole;
-  ASSERT_TRUE(cornersOf(mapOf(kAspect, 0.0), truth));
-  seen = truth;
+  const geometry::Quadrilateral truth = *cornersOf(mapOf(kAspect, 0.0));
+  geometry::Quadrilateral seen = truth;
   seen[0] += 0.1 * (truth[1] - truth[0]), seen[3] += 0.1 * (truth[2] - truth[3]);
   const auto view = prior.completed(mapFromCentre(seen), 3);
   ASSERT_TRUE(view);
-  ASSERT_TRUE(cornersOf(view->map, whole));
+  const geometry::Quadrilateral whole = *cornersOf(view->map);
   for (int i = 0; i < 4; ++i) EXPECT_LT((whole[i] - truth[i]).norm(), 0.2) << i;
   EXPECT_LT(view->sigma_px, 0.02 * (truth[3] - truth[0]).norm());
   EXPECT_FALSE(prior.completed(mapFromCentre(truth), 2))

@@ -30,7 +30,7 @@ struct Scene {
     start[0] += Eigen::Vector2d(off_px, -off_px), start[2] += Eigen::Vector2d(-0.5 * off_px, off_px);
     const auto aligned = alignment.align(start, 400.0, coarsest_px);
     if (!aligned) return 1e9;
-    correlation = aligned->match.correlation;
+    correlation = aligned->correlation;
     match = alignment.judge(aligned->quad, 200.0);
     return test::worstCorner(aligned->quad, opening);
   }
@@ -133,10 +133,10 @@ TEST(RingAlignment, WhatStandsBeforeTheRingIsLeftOutFromTheBeginningWhereItIsExp
     RingAlignment plain, covered;
     plain.set(scene.model, scene.image, nullptr);
     covered.set(scene.model, scene.image, nullptr, true);
-    EXPECT_LT(plain.compare(scene.opening, 200.0).correlation, 0.58) << seed;
-    EXPECT_GT(covered.compare(scene.opening, 200.0).correlation, 0.6) << seed;
+    EXPECT_LT(plain.correlation(scene.opening, 200.0), 0.58) << seed;
+    EXPECT_GT(covered.correlation(scene.opening, 200.0), 0.6) << seed;
     covered.set(scene.model, other.image, nullptr, true);
-    EXPECT_LT(covered.compare(other.opening, 200.0).correlation, 0.5) << seed << ", another wall";
+    EXPECT_LT(covered.correlation(other.opening, 200.0), 0.5) << seed << ", another wall";
   }
 }
 
@@ -149,7 +149,7 @@ TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
     test::fillQuad(scene.image, test::rectangle(0, 0, scene.opening[0].x() + 30, 480),
                    cv::Scalar(40, 90, 60));
     const auto worst = [&](const std::optional<OpeningAspect>& aspect, const geometry::PinholeCamera* known) {
-      scene.model.setAspect(aspect);
+      scene.model.aspect = aspect;
       RingAlignment alignment;
       alignment.set(scene.model, scene.image, known);
       Quadrilateral start = scene.opening;
@@ -169,7 +169,7 @@ TEST(RingAlignment, AHiddenSideIsPlacedByTheThreeOthers) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed : {3, 9}) {
     Scene scene{PatchedWall(seed, 0.07)};
-    scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+    scene.model.aspect = OpeningAspect{PatchedWall::kAspect, 0.01};
     scene.look(seenFrom(2.5, -0.3));
     RingAlignment alignment;
     alignment.set(scene.model, scene.image, &camera);
@@ -194,7 +194,7 @@ TEST(RingAlignment, WhatStandsBeforeOneSideDoesNotPullWhereTheShapeIsKnown) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed = 3; seed < 9; ++seed) {
     Scene scene{PatchedWall(seed)};
-    scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+    scene.model.aspect = OpeningAspect{PatchedWall::kAspect, 0.01};
     scene.look(seenFrom(2.5, -0.2));
     std::mt19937 random(seed);
     const int left = static_cast<int>(scene.opening[0].x()) - 60;
@@ -215,7 +215,7 @@ TEST(RingAlignment, WhatStandsBeforeOneSideDoesNotPullWhereTheShapeIsKnown) {
 // Squared errors of the sides over their stated variances, in many views.
 TEST(RingAlignment, WhatIsSaidOfTheSidesIsHonest) {
   Scene scene{PatchedWall(3)};
-  scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+  scene.model.aspect = OpeningAspect{PatchedWall::kAspect, 0.01};
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   double squares = 0.0;
   int count = 0;
@@ -242,7 +242,7 @@ TEST(RingAlignment, WhatIsSaidOfTheSidesIsHonest) {
 
 TEST(RingAlignment, TheSideOfAFrameFromBeyondWhichTheCameraLooksIsNotKnown) {
   Scene scene{PatchedWall(3, 0.07)};
-  scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+  scene.model.aspect = OpeningAspect{PatchedWall::kAspect, 0.01};
   scene.look(seenFrom(2.5, 0.5));
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   const auto known = [&](const geometry::PinholeCamera* with) {
@@ -255,13 +255,13 @@ TEST(RingAlignment, TheSideOfAFrameFromBeyondWhichTheCameraLooksIsNotKnown) {
   };
   EXPECT_EQ(known(&camera), 4);
   EXPECT_EQ(known(nullptr), 4) << "a camera without a calibration";
-  scene.model.setFramed(true);
+  scene.model.framed = true;
   EXPECT_EQ(known(&camera), 3);
 }
 
 TEST(RingAlignment, ASideWhoseRingTheImageCutsOffIsNotKnown) {
   Scene scene{PatchedWall(3)};
-  scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+  scene.model.aspect = OpeningAspect{PatchedWall::kAspect, 0.01};
   scene.look(seenFrom(2.5, 0.0));
   const int cut = static_cast<int>(std::min(scene.opening[0].x(), scene.opening[3].x())) - 5;
   scene.image = scene.image.colRange(cut, scene.image.cols).clone();
@@ -298,8 +298,8 @@ TEST(RingAlignment, AnotherWallDoesNotFit) {
     RingAlignment alignment;
     alignment.set(scene.model, other.image, nullptr);
     const auto aligned = alignment.align(other.opening, 400.0, 15.0);
-    EXPECT_LT(aligned ? aligned->match.correlation : 0.0, 0.4);
-    EXPECT_LT(alignment.compare(other.opening, 28.0).correlation, 0.3);
+    EXPECT_LT(aligned ? aligned->correlation : 0.0, 0.4);
+    EXPECT_LT(alignment.correlation(other.opening, 28.0), 0.3);
   }
 }
 

@@ -95,8 +95,6 @@ TEST(ReferenceBorders, NothingFromImagesWithoutColourOrWithoutSense) {
       borders.locate(facade.draw(), test::rectangle(7, 7, 7, 7), nullptr, ReferenceBorders::kCoarse));
   EXPECT_FALSE(borders.locate(facade.draw(), test::rectangle(-9e5, -9e5, -8e5, -8e5), nullptr,
                               ReferenceBorders::kCoarse));
-  borders.forget();
-  EXPECT_FALSE(borders.known());
 }
 
 }  // namespace window_ingress::detection::reference_borders_test
