@@ -35,7 +35,7 @@ CameraInBody cameraInBody(const geometry::PinholeCamera& camera, const Eigen::Is
 }
 
 std::string faultOf(const CameraInBody& camera) {
-  const auto faults = parameters::outOfRange(withCamera({}, camera));
+  const auto faults = parameters::outOfRange(camera);
   return faults.empty() ? "" : "camera_info or mounting of the camera: " + parameters::joined(faults);
 }
 
@@ -50,17 +50,8 @@ std::string whyNotMounted(const Eigen::Isometry3d& T_base_camera, const VehicleP
   if ((at.cwiseAbs() - half).maxCoeff() <= kBesideBodyM) return "";
   return formatted(
       "the camera, at (%.2f, %.2f, %.2f) m, lies outside of the vehicle, which reaches %g x %g x %g m from "
-      "its "
-      "middle: measure both (camera_pose, vehicle/half_length_m, half_width_m, half_height_m)",
+      "its middle: measure both (camera_pose, vehicle/half_length_m, half_width_m, half_height_m)",
       at.x(), at.y(), at.z(), half.x(), half.y(), half.z());
-}
-
-VehicleParams withCamera(VehicleParams vehicle, const CameraInBody& camera) {
-  vehicle.camera_forward_m = camera.forward_m;
-  vehicle.horizontal_fov_rad = camera.horizontal_fov_rad;
-  vehicle.vertical_fov_rad = camera.vertical_fov_rad;
-  vehicle.pixel_rad = camera.pixel_rad;
-  return vehicle;
 }
 
 }  // namespace window_ingress::navigation

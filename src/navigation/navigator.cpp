@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "navigation/behaviours/behaviours.hpp"
-#include "navigation/behaviours/home.hpp"
 #include "navigation/behaviours/position_hold.hpp"
 #include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
-#include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/mission/window_choice.hpp"
@@ -19,6 +15,7 @@
 #include "navigation/motion/setpoint_limiter.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
@@ -44,154 +41,154 @@ struct Navigator::Impl {
   MissionState mission;
   FlownWindow flown_at;
   Setpoint last_setpoint;
-  Home home;
   MissionClock clock;
   bool stands_down = false;  ///< aborted after the mission's end: no longer keeps its place
 
   std::string waiting() const { return "waiting for start; " + whatIsAssumed(params.commit); }
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
-  bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
-  void keepToWindow(Situation& situation) const;
-  void useCamera(const std::optional<CameraInBody>& camera);
-  void remember(const Situation& situation, const NavigatorInput& input);
-  Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
-  std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
+  bool isInOpening(const Situation& situation) const {
+    return state == State::kCommit && situation.vehicle && mission.committed &&
+           relate(*situation.vehicle, *mission.committed).distance() < params.vehicle.half_length_m;
+  }
+
+  void follow(const MissionPolicy& policy) {
+    params.commit.unverified_opening =
+        policy.unverified_opening.empty() ? told_commit.unverified_opening : policy.unverified_opening;
+    params.commit.glass = policy.glass.empty() ? told_commit.glass : policy.glass;
+  }
+
+  // Measures wind, gusts, and the vehicle's response to its setpoints.
+  void observe(Situation& situation) {
+    if (situation.vehicle_jumped) {
+      observer.restart();
+      turn.reset();
+    }
+    situation.told_odom_mps = last_setpoint.velocity_odom_mps;
+    if (!situation.vehicle) return;
+    turn.update(geometry::yawOf(situation.vehicle->T_odom_base.linear()), last_setpoint.yaw_rate_radps,
+                situation.dt_sec);
+    situation.pending_yaw_rad = turn.rad();
+    observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
+    if (observer.response().isMeasured()) situation.wind_odom_mps = observer.disturbance();
+    situation.gusts_odom = observer.gusts();
+    situation.gusts_watched_sec = observer.watchedSec();
+    params.vehicle.response_sec = observer.response().responseSec();
+    params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
+    params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
+  }
+
+  void remember(const Situation& situation, const NavigatorInput& input) {
+    const auto& vehicle = situation.vehicle;
+    const auto& target = situation.target;
+    if (situation.vehicle_jumped) mission.forgetPlaces();
+    if (vehicle) mission.followVehicle(vehicle->T_odom_base.translation(), monitor.odometry().carriedM());
+    if (vehicle && mission.trusted)
+      mission.was_in_front = relate(*vehicle, *mission.trusted).distance() >
+                             params.vehicle.half_length_m + params.vehicle.margin_m;
+    if (state == State::kCommit) {
+      mission.trusted = mission.committed;
+    } else if (target && vehicle && (isFlownAt() || !isKnownOther(*target, *vehicle, mission))) {
+      mission.window_odom_m = target->T_odom_window.translation();
+      if (target->sign_trusted) mission.trusted = target;
+    } else if (!target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
+      mission.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
+    }
+    const bool flies_at = state == State::kApproach || state == State::kCommit;
+    flown_at.follow(flies_at ? mission.trusted : std::nullopt, situation, monitor.odometry());
+  }
+
+  // The mission does not exchange a window that it flies at, and flies at none from behind. COMMIT judges its
+  // own sightings.
+  void keepToWindow(Situation& situation) const {
+    if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle)
+      return;
+    const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, mission);
+    if (why_not.empty()) return;
+    situation.target.reset();
+    situation.target_is_new = false;
+    situation.target_fault = why_not;
+  }
+
+  std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const {
+    const auto stop = [](Event event, const std::string& why) { return Decision{{}, false, event, why}; };
+    if (!isLive()) return staying();
+    if (!input.engaged) return stop(Event::kDisengaged, "the vehicle no longer follows setpoints");
+    const std::string timed_out = whatTimedOut(state, clock, params.timeouts);
+    if (!timed_out.empty()) return stop(Event::kGiveUp, timed_out);
+    if (mission.from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
+      return stop(Event::kGiveUp, "outside the fence");
+    const double turned_rad = observer.turnedRad();
+    if (!isInOpening(situation) && std::abs(turned_rad) > params.input.max_turned_rad)
+      return stop(Event::kGiveUp, formatted("the vehicle moves %.2f rad off the commanded direction: "
+                                            "setpoints and odometry differ in axes",
+                                            turned_rad));
+    const std::string missing = isMoving(state) ? missingInput(state, situation) : "";
+    return missing.empty() ? std::nullopt : std::optional(stop(Event::kInputStale, missing));
+  }
+
+  Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere) {
+    if (auto overruled = overrule(input, situation)) return *overruled;
+    if (!elsewhere.empty() && isFlownAt()) return {{}, true, Event::kOtherWindow, elsewhere};
+    return behave(situation);
+  }
+
   Decision behave(const Situation& situation) {
     return behaviour ? behaviour->step(situation, mission) : staying();
   }
+
   Decision staying() const {
     const bool keeps_place = state == State::kHold || (state == State::kPassed && !stands_down);
     return {{}, keeps_place, std::nullopt, reason};
   }
-  void change(State to, const std::string& why);
-  Setpoint output(const Decision& decision, const Situation& situation);
-  MeasuredVehicle measuredVehicle() const;
-  void follow(const MissionPolicy& policy);
+
+  void change(State to, const std::string& why) {
+    clock.enterState();
+    reason = why;
+    mission.was_near = mission.was_near || to == State::kApproach;
+    behaviour = behaviourOf(to, state, clock.nowSec(), !mission.was_near, params);
+    if (to == State::kBackOff) ++mission.back_offs;
+    if (isMoving(to) && to != State::kCommit) mission.committed.reset();  // its place is outdated
+    if (to == State::kHold) observer.restart();  // the present disturbance may not be wind
+    state = to;
+  }
+
+  Setpoint setpointFor(const Decision& decision, const Situation& situation) {
+    if (!mayHaveVelocity(state) || !situation.vehicle) return limiter.stop();
+    Setpoint wish = decision.wish;
+    if (decision.keeps_place) {
+      const Eigen::Vector3d back = velocityToPlace(*situation.vehicle, mission, params);
+      wish.velocity_odom_mps.head<2>() = back.head<2>();
+      if (wish.velocity_odom_mps.z() == 0.0) wish.velocity_odom_mps.z() = back.z();
+    }
+    Setpoint limited = limiter.limit(wish, situation.dt_sec);
+    limited.velocity_odom_mps =
+        permittedVelocity(limited.velocity_odom_mps, state, situation, mission, params);
+    return limiter.cutTo(limited);
+  }
+
+  NavigatorReport reportOn(const Situation& situation) const {
+    NavigatorReport report;
+    report.predicted_miss_m = mission.predicted_miss_m;
+    report.blind_sec = mission.blind_sec;
+    report.retries = mission.back_offs;
+    report.window_id = mission.trusted ? mission.trusted->window_id : 0;
+    report.given_up = mission.given_up;
+    report.next_window = params.search.next_window;
+    const ResponseEstimator& response = observer.response();
+    report.vehicle = {response.isMeasured(), response.responseSec(), response.accelerationMps2(),
+                      monitor.odometry().biasMps()};
+    const auto& target = mission.committed ? mission.committed : situation.target;
+    if (!target || !situation.vehicle) return report;
+    const RelativeState relative = relate(*situation.vehicle, *target);
+    report.has_relative = true;
+    report.lateral_m = relative.lateral();
+    report.vertical_m = relative.vertical();
+    report.distance_m = relative.distance();
+    report.commit_distance_m = commitDistance(relative, target->opening, pitchOf(*situation.vehicle), params);
+    return report;
+  }
 };
-
-void Navigator::Impl::follow(const MissionPolicy& policy) {
-  params.commit.unverified_opening =
-      policy.unverified_opening.empty() ? told_commit.unverified_opening : policy.unverified_opening;
-  params.commit.glass = policy.glass.empty() ? told_commit.glass : policy.glass;
-}
-
-MeasuredVehicle Navigator::Impl::measuredVehicle() const {
-  const ResponseEstimator& response = observer.response();
-  return {response.isMeasured(), response.responseSec(), response.accelerationMps2(),
-          monitor.odometry().biasMps()};
-}
-
-// An unusable camera changes nothing: no mission starts with it.
-void Navigator::Impl::useCamera(const std::optional<CameraInBody>& camera) {
-  if (camera && faultOf(*camera).empty()) params.vehicle = withCamera(params.vehicle, *camera);
-}
-
-void Navigator::Impl::remember(const Situation& situation, const NavigatorInput& input) {
-  if (situation.vehicle_jumped) {
-    mission.forgetPlaces();
-    observer.restart();
-    turn.reset();
-    home.odometryJumped();
-  }
-  mission.told_odom_mps = last_setpoint.velocity_odom_mps;
-  if (situation.vehicle) {
-    turn.update(geometry::yawOf(situation.vehicle->T_odom_base.linear()), last_setpoint.yaw_rate_radps,
-                situation.dt_sec);
-    mission.pending_yaw_rad = turn.rad();
-    observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
-    if (observer.response().isMeasured()) mission.wind_odom_mps = observer.disturbance();
-    mission.gusts_odom = observer.gusts();
-    mission.gusts_watched_sec = observer.watchedSec();
-    params.vehicle.response_sec = observer.response().responseSec();
-    params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
-    params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
-    mission.odometry_disagreement_mps = monitor.odometry().disagreementMps();
-    mission.odometry_shift_m = monitor.odometry().shiftM();
-    mission.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
-    mission.odometry_bias_known = monitor.odometry().isBiasKnown();
-    mission.bringPlaceBack(monitor.odometry().carriedM());
-    mission.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();
-    home.follow(*situation.vehicle, mission);
-  }
-  noteSide(situation, params, mission);
-  if (state == State::kCommit) {
-    mission.trusted = mission.committed;
-  } else if (situation.target && situation.vehicle &&
-             (isFlownAt() || !isKnownOther(*situation.target, *situation.vehicle, mission))) {
-    mission.window_odom_m = situation.target->T_odom_window.translation();
-    if (situation.target->sign_trusted) mission.trusted = situation.target;
-  } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
-    mission.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
-  }
-  const bool flies_at = state == State::kApproach || state == State::kCommit;
-  flown_at.follow(flies_at ? mission.trusted : std::nullopt, situation, monitor.odometry());
-}
-
-// The mission does not exchange a window that it flies at, and flies at none from behind. COMMIT judges its
-// own sightings.
-void Navigator::Impl::keepToWindow(Situation& situation) const {
-  if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
-  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, mission);
-  if (why_not.empty()) return;
-  situation.target.reset();
-  situation.target_is_new = false;
-  situation.target_fault = why_not;
-}
-
-Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation,
-                                 const std::string& elsewhere) {
-  if (auto overruled = overrule(input, situation)) return *overruled;
-  if (!elsewhere.empty() && isFlownAt()) return {{}, true, Event::kOtherWindow, elsewhere};
-  return behave(situation);
-}
-
-bool Navigator::Impl::isInOpening(const Situation& situation) const {
-  if (state != State::kCommit || !situation.vehicle || !mission.committed) return false;
-  return relate(*situation.vehicle, *mission.committed).distance() < params.vehicle.half_length_m;
-}
-
-std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
-                                                  const Situation& situation) const {
-  if (!isLive()) return staying();
-  if (!input.engaged)
-    return Decision{{}, false, Event::kDisengaged, "the vehicle no longer follows setpoints"};
-  const std::string timed_out = whatTimedOut(state, clock, params.timeouts);
-  if (!timed_out.empty()) return Decision{{}, false, Event::kGiveUp, timed_out};
-  if (home.awayM() > params.limits.fence_radius_m + kBeyondFenceM)
-    return Decision{{}, false, Event::kGiveUp, "outside the fence"};
-  const double turned_rad = observer.turnedRad();
-  if (!isInOpening(situation) && std::abs(turned_rad) > params.input.max_turned_rad)
-    return Decision{{}, false, Event::kGiveUp, goesAstray(turned_rad)};
-  if (!isMoving(state)) return std::nullopt;
-  const std::string missing = missingInput(state, situation);
-  if (!missing.empty()) return Decision{{}, false, Event::kInputStale, missing};
-  return std::nullopt;
-}
-
-void Navigator::Impl::change(State to, const std::string& why) {
-  clock.enterState();
-  reason = why;
-  mission.was_near = mission.was_near || to == State::kApproach;
-  behaviour = behaviourOf(to, state, clock.nowSec(), !mission.was_near, params);
-  if (to == State::kBackOff) ++mission.back_offs;
-  if (isMoving(to) && to != State::kCommit) mission.committed.reset();  // its place is outdated
-  if (to == State::kHold) observer.restart();  // the present disturbance may not be wind
-  state = to;
-}
-
-Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situation) {
-  if (!mayHaveVelocity(state) || !situation.vehicle) return limiter.stop();
-  Setpoint wish = decision.wish;
-  if (decision.keeps_place) {
-    const Eigen::Vector3d back = velocityToPlace(*situation.vehicle, mission, params);
-    wish.velocity_odom_mps.head<2>() = back.head<2>();
-    if (wish.velocity_odom_mps.z() == 0.0) wish.velocity_odom_mps.z() = back.z();
-  }
-  Setpoint limited = limiter.limit(wish, situation.dt_sec);
-  limited.velocity_odom_mps = permittedVelocity(limited.velocity_odom_mps, state, situation, mission, params);
-  return limiter.cutTo(limited);
-}
 
 Navigator::Navigator(const NavigatorParams& params) : impl_(new Impl(params)) {}
 Navigator::~Navigator() = default;
@@ -210,7 +207,6 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   self.mission.was_near = self.flown_at.mayHaveRoofAbove(*situation.vehicle);
   self.observer.reset();
   self.turn.reset();
-  self.home = Home();
   self.stands_down = false;
   self.limiter.stop();
   self.clock.startMission(now_sec);
@@ -258,12 +254,14 @@ void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }
 
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
-  self.useCamera(input.camera);
+  // An unusable camera changes nothing: no mission starts with it.
+  if (input.camera && faultOf(*input.camera).empty()) self.params.vehicle.camera = *input.camera;
   Situation situation = self.monitor.judge(input, now_sec);
   const std::string elsewhere = whySentElsewhere(situation, self.state, self.mission);
   if (!elsewhere.empty()) self.mission.leaveWindow();
   self.keepToWindow(situation);
   self.clock.pass(now_sec);
+  self.observe(situation);
   self.remember(situation, input);
   Decision decision = self.decide(input, situation, elsewhere);
   turnToNextWindow(self.state, self.params, self.mission, decision);
@@ -275,14 +273,13 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   }
   rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.mission);
   NavigatorOutput output;
-  output.setpoint = self.last_setpoint = self.output(decision, situation);
+  output.setpoint = self.last_setpoint = self.setpointFor(decision, situation);
   output.setpoint.velocity_odom_mps = self.monitor.odometry().inOdomAxes(output.setpoint.velocity_odom_mps);
   output.setpoint.heading_error_rad = self.monitor.odometry().headingErrorRad();
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;
-  output.report = reportOn(situation, self.mission, self.params);
-  output.report.vehicle = self.measuredVehicle();
+  output.report = self.reportOn(situation);
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;
   output.enabled = self.state != State::kIdle && streams;

@@ -11,6 +11,12 @@ Eigen::Matrix3d uprightRotation(const TargetEstimate& target) {
   return geometry::yawRotation(geometry::yawOf(target.T_odom_window.linear()));
 }
 
+Eigen::Vector3d normalOf(const TargetEstimate& target) { return uprightRotation(target).col(0); }
+
+double distanceBetween(const TargetEstimate& a, const TargetEstimate& b) {
+  return (a.T_odom_window.translation() - b.T_odom_window.translation()).norm();
+}
+
 namespace {
 
 /// To first order, a window that moves by dp and turns by dpsi about the vertical changes the vehicle's
@@ -38,9 +44,9 @@ RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target) 
       geometry::wrapAngle(std::atan2(to_window_odom_m.y(), to_window_odom_m.x()) - heading_rad);
   relative.heading_error_rad = geometry::wrapAngle(geometry::yawOf(R_odom_window) - heading_rad);
   const double x_m = relative.position_window_m.x();
-  relative.sigma_lateral_m = std::max(lateralSigma(R_odom_window, x_m, target.covariance),
-                                      lateralSigma(R_odom_window, 0.0, target.covariance));
-  relative.sigma_vertical_m = std::sqrt(std::max(0.0, target.covariance(2, 2)));
+  relative.sigma_m = {std::max(lateralSigma(R_odom_window, x_m, target.covariance),
+                               lateralSigma(R_odom_window, 0.0, target.covariance)),
+                      std::sqrt(std::max(0.0, target.covariance(2, 2)))};
   return relative;
 }
 

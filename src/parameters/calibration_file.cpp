@@ -13,12 +13,6 @@ namespace {
   throw InputError(file + ": " + text);
 }
 
-YAML::Node load(const std::string& file) {
-  const YAML::Node root = loadYaml(file);
-  if (!root.IsMap()) refuse(file, "is not a camera calibration: not a yaml mapping");
-  return root;
-}
-
 std::vector<double> numbers(const YAML::Node& root, const std::string& key, const std::string& file) {
   try {
     const YAML::Node matrix = root[key];
@@ -39,19 +33,11 @@ int integer(const YAML::Node& root, const std::string& key, const std::string& f
   }
 }
 
-void readLens(const YAML::Node& root, const std::string& file, geometry::PinholeCamera& camera) {
-  if (!root["distortion_coefficients"]) return;
-  const auto distortion = numbers(root, "distortion_coefficients", file);
-  const std::string model =
-      root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
-  const std::string why = geometry::setLens(model, distortion, camera);
-  if (!why.empty()) refuse(file, "distortion_coefficients: " + why);
-}
-
 }  // namespace
 
 geometry::PinholeCamera readCalibrationFile(const std::string& file) {
-  const YAML::Node root = load(file);
+  const YAML::Node root = loadYaml(file);
+  if (!root.IsMap()) refuse(file, "is not a camera calibration: not a yaml mapping");
   geometry::PinholeCamera camera;
   camera.width = integer(root, "image_width", file);
   camera.height = integer(root, "image_height", file);
@@ -60,7 +46,13 @@ geometry::PinholeCamera readCalibrationFile(const std::string& file) {
   if (std::all_of(k.begin(), k.end(), [](double v) { return v == 0.0; }))
     refuse(file, "the camera is uncalibrated (camera_matrix is zero); calibrate it first");
   camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
-  readLens(root, file, camera);
+  if (root["distortion_coefficients"]) {
+    const auto distortion = numbers(root, "distortion_coefficients", file);
+    const std::string model =
+        root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
+    const std::string why = geometry::setLens(model, distortion, camera);
+    if (!why.empty()) refuse(file, "distortion_coefficients: " + why);
+  }
   const auto faults = camera.validate();
   if (!faults.empty()) refuse(file, joined(faults));
   return camera;

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters {

@@ -1,24 +1,22 @@
-#include "window_ingress/parameters/unknown_key.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "window_ingress/parameters/fields.hpp"
+
 namespace window_ingress::parameters {
 namespace {
 
+constexpr char kOdomDrift[] = "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names";
 // Ends of paths that were named differently in earlier versions.
 const std::pair<const char*, const char*> kMoved[] = {
     {"navigator/vehicle", "'vehicle: {..}', at the level of the node names, once for all nodes"},
     {"tracker/fit",
      "'vehicle: {half_width_m: .., half_height_m: .., margin_m: ..}', at the level of the node names"},
     {"approach/margin_m", "'vehicle: {margin_m: ..}', at the level of the node names"},
-    {"commit/drift_m_per_sqrt_sec",
-     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
-    {"filter/drift_m_per_sqrt_sec",
-     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
-    {"facade/drift_m_per_sqrt_sec",
-     "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', at the level of the node names"},
+    {"commit/drift_m_per_sqrt_sec", kOdomDrift},
+    {"filter/drift_m_per_sqrt_sec", kOdomDrift},
+    {"facade/drift_m_per_sqrt_sec", kOdomDrift},
     {"input/max_future_sec", "'vehicle: {stamps: {max_future_sec: ..}}', at the level of the node names"},
     {"stamps", "'vehicle: {stamps: {..}}', at the level of the node names, once for all nodes"},
     {"image_is_rectified", "'vehicle: {image_is_rectified: ..}', at the level of the node names"},
@@ -31,13 +29,8 @@ const std::pair<const char*, const char*> kMoved[] = {
     {"interior/most_px", "'max_side_px'"},
 };
 
-struct Group {
-  const char* path;
-  const char* names;
-};
-
 // Former parameters, now constants: groups and the names in them. Those of a node have an empty group.
-const Group kConstants[] = {
+const std::pair<const char*, const char*> kConstants[] = {
     {"lines", " max_gap vote_fraction "},
     {"contours", " min_perimeter "},
     {"gates", " min_solidity "},
@@ -70,15 +63,21 @@ const Group kConstants[] = {
     {"", " start_time_sec clock_rate_hz "},
 };
 
-bool endsWith(const std::string& path, const std::string& end) {
-  if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0) return false;
-  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/';
+std::string groupOf(const std::string& path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
-bool isConstant(const std::string& path, const Group& group) {
-  const std::string name = path.substr(path.rfind('/') + 1);
-  const std::string end = *group.path == '\0' ? name : std::string(group.path) + "/" + name;
-  return std::string(group.names).find(" " + name + " ") != std::string::npos && endsWith(path, end);
+std::string nameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+bool startsWith(const std::string& path, const std::string& start) {
+  return path.compare(0, start.size(), start) == 0;
+}
+
+// Whether the last groups and the name of the path are these.
+bool endsWith(const std::string& path, const std::string& end) {
+  const std::string whole = "/" + path, tail = "/" + end;
+  return whole.size() >= tail.size() && startsWith(whole.substr(whole.size() - tail.size()), tail);
 }
 
 // Text after "unknown key" for a key of earlier versions; empty for all others.
@@ -86,17 +85,12 @@ std::string whatBecameOf(const std::string& path) {
   for (const auto& [end, now] : kMoved)
     if (endsWith(path, end)) return std::string("; it is now ") + now;
   if (endsWith(path, "camera_pose")) return "; it is an argument of the launch files: camera_pose:=..";
-  for (const Group& group : kConstants)
-    if (isConstant(path, group)) return "; it is now a constant: remove it";
+  for (const auto& [group, names] : kConstants)
+    if (std::string(names).find(" " + nameOf(path) + " ") != std::string::npos &&
+        (*group == '\0' || endsWith(groupOf(path), group)))
+      return "; it is now a constant: remove it";
   return "";
 }
-
-std::string groupOf(const std::string& path) {
-  const auto slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
-}
-
-std::string nameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 // Number of letters to insert, remove or replace; swapped neighbours count once (optimal string alignment).
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -122,7 +116,7 @@ std::string inYaml(const std::string& path) {
 
 // A name without its unit counts like one wrong letter.
 std::size_t nameDistance(const std::string& name, const std::string& known) {
-  return known.compare(0, name.size() + 1, name + "_") == 0 ? 1 : distance(name, known);
+  return startsWith(known, name + "_") ? 1 : distance(name, known);
 }
 
 // Distance of a known path from the unknown one: first by name, then by group.
@@ -137,7 +131,7 @@ std::string neighboursOf(const std::string& path, const std::vector<std::string>
   std::vector<std::string> names;
   std::string listed;
   for (const auto& key : known) {
-    if (key.compare(0, group.size(), group) != 0) continue;
+    if (!startsWith(key, group)) continue;
     const std::string name = key.substr(group.size(), key.find('/', group.size()) - group.size());
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     listed += (names.empty() ? "; there is " : ", ") + name;
@@ -150,10 +144,9 @@ std::string neighboursOf(const std::string& path, const std::vector<std::string>
 std::vector<std::string> namesakesOf(const std::string& nearest, const std::string& path,
                                      const std::vector<std::string>& known) {
   const std::string node = path.substr(0, path.find('/') + 1);
-  const bool within = nearest.compare(0, node.size(), node) == 0;
   std::vector<std::string> namesakes;
   for (const auto& key : known)
-    if (nameOf(key) == nameOf(nearest) && (!within || key.compare(0, node.size(), node) == 0))
+    if (nameOf(key) == nameOf(nearest) && (!startsWith(nearest, node) || startsWith(key, node)))
       namesakes.push_back(key);
   return namesakes;
 }
@@ -184,11 +177,6 @@ std::string didYouMean(const std::string& path, const std::vector<std::string>& 
   for (const auto& key : namesakesOf(*nearest, path, known))
     meant += (meant.empty() ? "'" : " or '") + inYaml(key) + "'";
   return "; did you mean " + meant + "?";
-}
-
-std::string unknownKey(const std::string& shown, const std::string& path,
-                       const std::vector<std::string>& known) {
-  return shown + ": unknown key" + didYouMean(path, known);
 }
 
 }  // namespace window_ingress::parameters

@@ -3,47 +3,17 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <functional>
 #include <ios>
 #include <sstream>
 #include <type_traits>
 
 #include "parameters/yaml_nodes.hpp"
-#include "window_ingress/parameters/unknown_key.hpp"
 
 namespace window_ingress::parameters {
 namespace {
 
 constexpr char kSecondTime[] = ": is given twice";
-
-/// Walks through a file and checks its keys against the known ones.
-class YamlReader {
- public:
-  YamlReader(const std::string& file, const std::vector<Field>& fields)
-      : file_(file), fields_(fields), keys_(keysOf(fields)) {}
-
-  void read(const YAML::Node& mapping, const std::string& path) {
-    for (const YamlEntry& entry : entriesOf(file_, mapping, path, faults)) {
-      const std::string here = path + entry.name;
-      if (const Field* field = find(fields_, here))
-        faults.collect([&] {
-          if (!said.insert(here).second) throw faultAt(file_, entry.key, here + kSecondTime);
-          readValue(file_, entry.value, *field);
-        });
-      else if (std::find(keys_.begin(), keys_.end(), here) != keys_.end())
-        read(entry.value, here + "/");
-      else
-        faults.add(faultAt(file_, entry.key, unknownKey(here, here, keys_)));
-    }
-  }
-
-  YamlFaults faults;
-  std::set<std::string> said;
-
- private:
-  const std::string& file_;
-  const std::vector<Field>& fields_;
-  std::vector<std::string> keys_;
-};
 
 // Whether ROS reads a value that is not a text here in the same way: in quotes, and as "1e-3", "-.5" or "y",
 // ROS reads a text, and "010" as eight.
@@ -118,18 +88,20 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
     return entries;
   }
   for (const auto& entry : mapping) {
-    if (!entry.first.IsScalar())
-      faults.add(faultAt(file, entry.first, place + "a key must be a word"));
-    else if (!names.insert(entry.first.Scalar()).second)
-      faults.add(faultAt(file, entry.first, path + entry.first.Scalar() + kSecondTime));
-    else if (entry.second.IsNull())  // an empty value has the mark of the next entry
-      faults.add(faultAt(
-          file, entry.first,
-          path + entry.first.Scalar() +
-              (isNumber(entry.first) ? ": is a number without a key: a comma in place of a decimal point?"
+    const YAML::Node key = entry.first, value = entry.second;
+    const std::string name = key.IsScalar() ? key.Scalar() : "";
+    if (!key.IsScalar())
+      faults.add(faultAt(file, key, place + "a key must be a word"));
+    else if (!names.insert(name).second)
+      faults.add(faultAt(file, key, path + name + kSecondTime));
+    else if (value.IsNull())  // an empty value has the mark of the next entry
+      faults.add(
+          faultAt(file, key,
+                  path + name +
+                      (isNumber(key) ? ": is a number without a key: a comma in place of a decimal point?"
                                      : ": is empty; give it a value, or leave it out")));
     else
-      entries.push_back({entry.first.Scalar(), entry.first, entry.second});
+      entries.push_back({name, key, value});
   }
   return entries;
 }
@@ -155,10 +127,27 @@ void readValue(const std::string& file, const YAML::Node& node, const Field& fie
 }
 
 std::set<std::string> readYamlFile(const std::string& file, const std::vector<Field>& fields) {
-  YamlReader reader(file, fields);
-  reader.read(loadYaml(file), "");
-  reader.faults.throwIfAny();
-  return reader.said;
+  const std::vector<std::string> keys = keysOf(fields);
+  std::set<std::string> said;
+  YamlFaults faults;
+  const std::function<void(const YAML::Node&, const std::string&)> read = [&](const auto& mapping,
+                                                                              const auto& path) {
+    for (const YamlEntry& entry : entriesOf(file, mapping, path, faults)) {
+      const std::string here = path + entry.name;
+      if (const Field* field = find(fields, here))
+        faults.collect([&] {
+          if (!said.insert(here).second) throw faultAt(file, entry.key, here + kSecondTime);
+          readValue(file, entry.value, *field);
+        });
+      else if (std::find(keys.begin(), keys.end(), here) != keys.end())
+        read(entry.value, here + "/");
+      else
+        faults.add(faultAt(file, entry.key, here + ": unknown key" + didYouMean(here, keys)));
+    }
+  };
+  read(loadYaml(file), "");
+  faults.throwIfAny();
+  return said;
 }
 
 std::string toYaml(const std::vector<Field>& fields, const std::string& path) {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {

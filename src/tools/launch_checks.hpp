@@ -19,7 +19,6 @@
 
 #include "command_line.hpp"
 #include "window_ingress/parameters/fields.hpp"
-#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {

@@ -3,11 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/openness/interior_klt_params.hpp"
 
 namespace window_ingress::configuration {
+
+/// Limits of input images.
+struct ImageLimits {
+  int max_pixels = 8000000;  ///< images with more pixels are refused [px]
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_pixels", self.max_pixels, 1, 100000000);
+  }
+};
 
 /// The reference image.
 struct ReferenceParams {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::configuration {
 
@@ -23,7 +23,7 @@ struct WorldNodeParams {
                                 ///< and set_camera_info writes; empty: the true calibration
   std::string verdict_file;     ///< JSON file for the referee's verdict, written at the end; empty: none
   std::string camera_frame = "camera_optical_frame";  ///< frame_id of the images
-  FrameNames frames;
+  navigation::FrameNames frames;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("scenario", self.scenario);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "window_ingress/facade/facade_map.hpp"
-#include "window_ingress/text/reply.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::facade {
 

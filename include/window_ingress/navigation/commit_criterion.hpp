@@ -1,6 +1,7 @@
 /// Conditions for approaching the window (funnel) and for flying on without seeing it (commit criterion).
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "window_ingress/estimation/target_motion.hpp"
@@ -21,28 +22,26 @@ double commitDistance(const RelativeState& relative, const geometry::OpeningSize
 struct CommitCriterionInput {
   RelativeState relative;
   geometry::OpeningSize opening;
-  double pitch_rad = 0.0;             ///< pitch of the vehicle, nose down positive [rad]
-  double unseen_sec = 0.0;            ///< age of the window estimate [s]
-  estimation::TargetMotion motion;    ///< of the window
-  double gust_lateral_mps = 0.0;      ///< root mean square of sideways gust velocity [m/s]
-  double gust_vertical_mps = 0.0;     ///< root mean square of vertical gust velocity [m/s]
+  double pitch_rad = 0.0;           ///< pitch of the vehicle, nose down positive [rad]
+  double unseen_sec = 0.0;          ///< age of the window estimate [s]
+  estimation::TargetMotion motion;  ///< of the window
+  /// Root mean square of gust velocity, sideways and vertical [m/s].
+  Eigen::Vector2d gusts_mps = Eigen::Vector2d::Zero();
   double gusts_watched_sec = 15.0;    ///< observation time; a shorter one adds more for stronger gusts
   double odometry_mps = 0.0;          ///< error of the odometry's velocity [m/s]
   double drift_m_per_sqrt_sec = 0.0;  ///< of the odometry, measured; the parameter is the minimum
 };
 
-/// Whether the vehicle may commit now, and with what margin.
+/// Whether the vehicle may commit now, and with what margin. Pairs are sideways and vertical.
 struct CommitCriterion {
-  double clearance_lateral_m = 0.0;  ///< half the opening less half the body less `margin_m`
-  double clearance_vertical_m = 0.0;
+  /// Half the opening less half the body less `margin_m`.
+  Eigen::Vector2d clearance_m = Eigen::Vector2d::Zero();
   /// Predicted at the plane: the remaining offset plus `sigma_factor` times the spread of estimate, odometry
   /// drift on the blind way, and gusts.
-  double miss_lateral_m = 0.0;
-  double miss_vertical_m = 0.0;
+  Eigen::Vector2d miss_m = Eigen::Vector2d::Zero();
   /// Offset at the plane without random errors, if the velocity keeps its deviation from what steering asks
   /// for.
-  double settled_lateral_m = 0.0;
-  double settled_vertical_m = 0.0;
+  Eigen::Vector2d settled_m = Eigen::Vector2d::Zero();
   double commit_distance_m = 0.0;
   double funnel_m = 0.0;   ///< how much wider than the clearance the funnel is at this distance
   double fullness = 0.0;   ///< present offset plus its spread, over the funnel's half width; 1 at its wall
@@ -54,7 +53,7 @@ struct CommitCriterion {
   /// It is not known whether the opening is open, and the policy requires it.
   bool opening_unverified = false;
 
-  double missM() const { return miss_lateral_m > miss_vertical_m ? miss_lateral_m : miss_vertical_m; }
+  bool hasClearance() const { return (clearance_m.array() > 0.0).all(); }
 };
 
 CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const NavigatorParams& params);

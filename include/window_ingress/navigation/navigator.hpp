@@ -10,7 +10,7 @@
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
-#include "window_ingress/text/reply.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 

@@ -96,9 +96,8 @@ inline constexpr std::array kTransitions = {
 
 /// Where the event leads from this state; nothing if it means nothing there.
 constexpr std::optional<State> next(State state, Event event) {
-  for (const auto& row : kTransitions) {
+  for (const auto& row : kTransitions)
     if (row.from == state && row.event == event) return row.to;
-  }
   return std::nullopt;
 }
 

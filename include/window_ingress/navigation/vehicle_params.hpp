@@ -31,18 +31,31 @@ struct StampLimits {
   }
 };
 
+/// Where the camera sits, and what a level vehicle sees through it.
+struct CameraInBody {
+  double forward_m = 0.1;  ///< distance of the camera ahead of the body's centre; tf overrides it [m]
+  double horizontal_fov_rad = 1.39;  ///< horizontal field of view of the camera; camera_info overrides it
+                                     ///< [rad]
+  double vertical_fov_rad = 1.12;    ///< vertical field of view of the camera; camera_info overrides it [rad]
+  double pixel_rad = 0.0018;  ///< angle of one pixel at the image centre, 1 / focal length; camera_info
+                              ///< overrides it [rad]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("camera_forward_m", self.forward_m, -1.0, 1.0);
+    field("horizontal_fov_rad", self.horizontal_fov_rad, 0.3, 2.8);
+    field("vertical_fov_rad", self.vertical_fov_rad, 0.3, 2.8);
+    field("pixel_rad", self.pixel_rad, 1e-4, 0.1);
+  }
+};
+
 /// Body, camera, odometry and response of the vehicle; one copy for all nodes.
 struct VehicleParams {
   double half_length_m = 0.25;  ///< half the body's length, forward, propellers included [m]
   double half_width_m = 0.25;   ///< half the body's width, sideways, propellers included [m]
   double half_height_m = 0.12;  ///< half the body's height, propellers and legs included [m]
   double margin_m = 0.05;  ///< extra distance on each side between body and opening, on top of all errors [m]
-  double camera_forward_m = 0.1;  ///< distance of the camera ahead of the body's centre; tf overrides it [m]
-  double horizontal_fov_rad = 1.39;  ///< horizontal field of view of the camera; camera_info overrides it
-                                     ///< [rad]
-  double vertical_fov_rad = 1.12;    ///< vertical field of view of the camera; camera_info overrides it [rad]
-  double pixel_rad = 0.0018;        ///< angle of one pixel at the image centre, 1 / focal length; camera_info
-                                    ///< overrides it [rad]
+  CameraInBody camera;
   double exposure_sec = 0.004;      ///< longest exposure of an image; limits the yaw rate of the search
                                     ///< (blur) [s]
   bool image_is_rectified = false;  ///< images are rectified: P of camera_info is used, not K and D
@@ -64,10 +77,7 @@ struct VehicleParams {
     field("half_width_m", self.half_width_m, 0.02, 2.0);
     field("half_height_m", self.half_height_m, 0.02, 2.0);
     field("margin_m", self.margin_m, 0.0, 1.0);
-    field("camera_forward_m", self.camera_forward_m, -1.0, 1.0);
-    field("horizontal_fov_rad", self.horizontal_fov_rad, 0.3, 2.8);
-    field("vertical_fov_rad", self.vertical_fov_rad, 0.3, 2.8);
-    field("pixel_rad", self.pixel_rad, 1e-4, 0.1);
+    CameraInBody::visit(self.camera, field);
     field("exposure_sec", self.exposure_sec, 0.0, 0.5);
     field("image_is_rectified", self.image_is_rectified);
     field("response_sec", self.response_sec, 0.0, 2.0);

@@ -77,6 +77,15 @@ std::vector<Field> fieldsOf(Params& params) {
   return lister.fields;
 }
 
+/// The paths of all fields, each group before its contents: "vehicle", "vehicle/half_width_m".
+std::vector<std::string> keysOf(const std::vector<Field>& fields);
+
+/// Text after "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?". If no known key is similar, the
+/// text lists the keys that could stand there, if they are few; otherwise it is empty.
+/// \param path the unknown key
+/// \param known all known keys
+std::string didYouMean(const std::string& path, const std::vector<std::string>& known);
+
 /// The field of this name, or null.
 const Field* find(const std::vector<Field>& fields, const std::string& name);
 

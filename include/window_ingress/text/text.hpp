@@ -13,6 +13,12 @@ class InputError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// Answer to a request: never silent.
+struct Reply {
+  bool success = false;
+  std::string message;
+};
+
 /// Formats a text as printf does.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 

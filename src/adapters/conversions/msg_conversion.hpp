@@ -20,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -31,11 +30,12 @@
 #include "window_ingress/facade/facade_memory.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 
 namespace window_ingress::adapters {
 
-using configuration::FrameNames;
+using navigation::FrameNames;
 
 /// A converted message, or why it cannot be used.
 template <typename Value>

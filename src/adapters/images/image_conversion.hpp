@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 
 namespace window_ingress::adapters {
 

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "adapters/inputs/clock_watch.hpp"
-#include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::adapters {
 
-using configuration::StampLimits;
+using navigation::StampLimits;
 
 /// Admits messages of one topic by their stamp: not zero, recent, and newer than the previous one. Restarts
 /// when the clock jumps back.

@@ -83,9 +83,9 @@ void drawTrail(MarkerSketch& sketch, const FlightTrail& trail, const Eigen::Vect
 
 void drawCamera(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_base,
                 const navigation::VehicleParams& vehicle) {
-  const Eigen::Vector3d eye(vehicle.camera_forward_m, 0.0, 0.0);
-  const double y_m = kViewM * std::tan(0.5 * vehicle.horizontal_fov_rad);
-  const double z_m = kViewM * std::tan(0.5 * vehicle.vertical_fov_rad);
+  const Eigen::Vector3d eye(vehicle.camera.forward_m, 0.0, 0.0);
+  const double y_m = kViewM * std::tan(0.5 * vehicle.camera.horizontal_fov_rad);
+  const double z_m = kViewM * std::tan(0.5 * vehicle.camera.vertical_fov_rad);
   Points strokes, corners;
   for (const auto& [y, z] : {std::pair{y_m, z_m}, {-y_m, z_m}, {-y_m, -z_m}, {y_m, -z_m}}) {
     corners.push_back(T_odom_base * (eye + Eigen::Vector3d(kViewM, y, z)));
@@ -139,9 +139,9 @@ std::vector<FunnelSection> funnelOf(const navigation::VehicleState& vehicle,
   for (const double distance_m : {0.0, line_m, line_m + kFunnelM}) {
     input.relative.position_window_m.x() = -distance_m;
     const navigation::CommitCriterion criterion = navigation::evaluateCommitCriterion(input, params);
-    if (!(criterion.clearance_lateral_m > 0.0 && criterion.clearance_vertical_m > 0.0)) return {};
-    sections.push_back({distance_m, criterion.clearance_lateral_m + criterion.funnel_m,
-                        criterion.clearance_vertical_m + criterion.funnel_m});
+    if (!criterion.hasClearance()) return {};
+    sections.push_back({distance_m, criterion.clearance_m.x() + criterion.funnel_m,
+                        criterion.clearance_m.y() + criterion.funnel_m});
   }
   return sections;
 }

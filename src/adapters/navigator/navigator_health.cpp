@@ -60,11 +60,11 @@ Health NavigatorNode::vehicleHealth() const {
 
 Health NavigatorNode::cameraHealth() const {
   if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
-  const navigation::VehicleParams& vehicle = params_.navigator.vehicle;
+  const navigation::CameraInBody& camera = params_.navigator.vehicle.camera;
   return {Health::kOk,
           formatted("%.2f m ahead, field of view %.2f x %.2f rad, %.2g rad per pixel, from %s",
-                    vehicle.camera_forward_m, vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad,
-                    vehicle.pixel_rad, input_.camera ? "camera_info and tf" : "the parameters vehicle/...")};
+                    camera.forward_m, camera.horizontal_fov_rad, camera.vertical_fov_rad, camera.pixel_rad,
+                    input_.camera ? "camera_info and tf" : "the parameters vehicle/...")};
 }
 
 Health NavigatorNode::lastGateHealth() const {

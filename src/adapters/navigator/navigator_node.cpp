@@ -140,8 +140,7 @@ void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
   if (lockstep_) return;
   input_.camera = cameraFromMsg(message);
   if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;
-  params_.navigator.vehicle =
-      navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // for the markers
+  params_.navigator.vehicle.camera = *input_.camera;  // for the markers
 }
 
 void NavigatorNode::step() {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -14,10 +14,11 @@ void tellCamera(const simulation::World& world, const std::set<std::string>& sai
     if (said.count(std::string("vehicle/") + name) == 0) value = fact;
   };
   const auto camera = world.camera();
-  tell("camera_forward_m", vehicle.camera_forward_m, world.T_base_camera().translation().x());
-  tell("horizontal_fov_rad", vehicle.horizontal_fov_rad, 2.0 * std::atan(camera.width / (2.0 * camera.fx)));
-  tell("vertical_fov_rad", vehicle.vertical_fov_rad, 2.0 * std::atan(camera.height / (2.0 * camera.fy)));
-  tell("pixel_rad", vehicle.pixel_rad, 1.0 / camera.fx);
+  auto& told = vehicle.camera;
+  tell("camera_forward_m", told.forward_m, world.T_base_camera().translation().x());
+  tell("horizontal_fov_rad", told.horizontal_fov_rad, 2.0 * std::atan(camera.width / (2.0 * camera.fx)));
+  tell("vertical_fov_rad", told.vertical_fov_rad, 2.0 * std::atan(camera.height / (2.0 * camera.fy)));
+  tell("pixel_rad", told.pixel_rad, 1.0 / camera.fx);
   tell("exposure_sec", vehicle.exposure_sec, world.scenario().camera.exposure_sec);
 }
 

@@ -17,13 +17,12 @@ constexpr double kMaxUnexplainedMps = 0.08;  // until a steady velocity bias can
 // The forward speed may rise by this share of its gain per response time; by more below kMuchAcrossMps.
 constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
 
-std::string whyNoOdometryToCommitBy(const MissionState& mission) {
-  if (mission.odometry_disagreement_mps > kMaxDisagreementMps)
-    return formatted("odometry: position and velocity disagree by %.2f m/s",
-                     mission.odometry_disagreement_mps);
-  if (!mission.odometry_bias_known && mission.odometry_unexplained_mps > kMaxUnexplainedMps)
+std::string whyNoOdometryToCommitBy(const OdometryQuality& odometry) {
+  if (odometry.disagreement_mps > kMaxDisagreementMps)
+    return formatted("odometry: position and velocity disagree by %.2f m/s", odometry.disagreement_mps);
+  if (!odometry.is_bias_known && odometry.unexplained_mps > kMaxUnexplainedMps)
     return formatted("odometry: its velocity is off by %.2f m/s, not yet known to be a constant bias",
-                     mission.odometry_unexplained_mps);
+                     odometry.unexplained_mps);
   return "";
 }
 
@@ -53,17 +52,20 @@ void MissionState::forgetWindow() {
   others_odom_m.clear();
 }
 
-void MissionState::bringPlaceBack(const Eigen::Vector3d& carried_m) {
-  if (place_odom_m) *place_odom_m += carried_m - odometry_carried_m;
-  odometry_carried_m = carried_m;
-}
-
 void MissionState::forgetPlaces() {
   forgetWindow();
   committed.reset();
   left_odom_m.clear();
+  home_odom_m.reset();
   place_odom_m.reset();
   keeping_since_sec.reset();
+}
+
+void MissionState::followVehicle(const Eigen::Vector3d& position_odom_m, const Eigen::Vector3d& carried_m) {
+  if (!home_odom_m) home_odom_m = position_odom_m - from_home_m;
+  from_home_m = position_odom_m - *home_odom_m;
+  if (place_odom_m) *place_odom_m += carried_m - place_carried_m;
+  place_carried_m = carried_m;
 }
 
 double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
@@ -72,15 +74,14 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
   return since_sec ? now_sec - *since_sec : -1.0;
 }
 
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& mission) {
-  if (!mission.trusted || !situation.vehicle) return;
-  const double distance_m = relate(*situation.vehicle, *mission.trusted).distance();
-  mission.was_in_front = distance_m > params.vehicle.half_length_m + params.vehicle.margin_m;
-}
-
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission) {
   const auto& target = *situation.target;
-  if (!target.other_window) return leaveClosedOpening(situation, mission);
+  if (!target.other_window) {
+    const std::string closed = whyClosed(target);
+    if (closed.empty()) return std::nullopt;
+    mission.giveUpWindow(target);
+    return Decision{{}, true, Event::kOtherWindow, closed};
+  }
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
   mission.others_odom_m.push_back(position +
                                   *target.other_window * (target.T_odom_window.translation() - position));
@@ -101,46 +102,40 @@ bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, con
                      });
 }
 
-CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
+CommitCriterion criterionWith(const TargetEstimate& target, const Situation& situation,
                               const MissionState& mission, const NavigatorParams& params, double unseen_sec) {
   const Eigen::Matrix3d R_odom_window = uprightRotation(target);
-  const auto along = [&](int axis) {
+  const auto gustAlong = [&](int axis) {
     const Eigen::Vector3d direction = R_odom_window.col(axis);
-    return std::sqrt(std::max(0.0, direction.dot(mission.gusts_odom * direction)));
+    return std::sqrt(std::max(0.0, direction.dot(situation.gusts_odom * direction)));
   };
   CommitCriterionInput input;
-  input.relative = relate(vehicle, target);
+  input.relative = relate(*situation.vehicle, target);
   input.opening = target.opening;
-  input.pitch_rad = pitchOf(vehicle);
+  input.pitch_rad = pitchOf(*situation.vehicle);
   input.unseen_sec = unseen_sec;
   input.motion = target.motion;
-  input.gust_lateral_mps = along(1);
-  input.gust_vertical_mps = along(2);
-  input.gusts_watched_sec = mission.gusts_watched_sec;
-  input.odometry_mps = mission.odometry_unexplained_mps;
-  input.drift_m_per_sqrt_sec = mission.odometry_drift_m_per_sqrt_sec;
+  input.gusts_mps = {gustAlong(1), gustAlong(2)};
+  input.gusts_watched_sec = situation.gusts_watched_sec;
+  input.odometry_mps = situation.odometry.unexplained_mps;
+  input.drift_m_per_sqrt_sec = situation.odometry.drift_m_per_sqrt_sec;
   CommitCriterion criterion = evaluateCommitCriterion(input, params);
   const std::string why_not = whyNotEntered(target, mission, params.commit);
   criterion.opening_unverified = !why_not.empty();
-  if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(mission);
+  if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(situation.odometry);
   if (criterion.unmet.empty()) criterion.unmet = target.unverified;
   if (criterion.unmet.empty()) criterion.unmet = why_not;
   criterion.holds = criterion.unmet.empty();
   return criterion;
 }
 
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& mission) {
-  return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(mission.wind_odom_mps));
+double againstTailwind(double forward_mps, const TargetEstimate& target, const Situation& situation) {
+  return forward_mps - std::max(0.0, normalOf(target).dot(situation.wind_odom_mps));
 }
 
-double yawRateFor(double error_rad, const MissionState& mission, const NavigatorParams& params) {
+double yawRateFor(double error_rad, const Situation& situation, const NavigatorParams& params) {
   const double limit = params.limits.yaw_rate_radps;
-  return std::clamp(params.align.yaw_gain_hz * (error_rad - mission.pending_yaw_rad), -limit, limit);
-}
-
-double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {
-  return relative.distance() < params.limits.wall_distance_m ? relative.heading_error_rad
-                                                             : relative.bearing_rad;
+  return std::clamp(params.align.yaw_gain_hz * (error_rad - situation.pending_yaw_rad), -limit, limit);
 }
 
 double velocityTowards(double error_m, double limit_mps, const NavigatorParams& params) {
@@ -155,8 +150,7 @@ double velocityTowards(double error_m, double limit_mps, const NavigatorParams& 
 Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
                                   double forward_mps, const Eigen::Vector3d& wind_odom_mps,
                                   const NavigatorParams& params) {
-  const Eigen::Vector3d coasted =
-      relative.position_window_m + relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
+  const Eigen::Vector3d coasted = relative.coastedM(params.vehicle);
   const auto& align = params.align;
   Eigen::Vector3d velocity_window(0.0, velocityTowards(-coasted.y(), align.lateral_speed_mps, params),
                                   velocityTowards(-coasted.z(), align.vertical_speed_mps, params));

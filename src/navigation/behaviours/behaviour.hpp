@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,32 +23,23 @@ struct Decision {
   std::string reason;
 };
 
-/// What the mission remembers between steps.
+/// What the mission remembers between steps: its own choices, counts and places.
 struct MissionState {
   std::optional<TargetEstimate> trusted;         ///< last estimate whose normal was trusted
   std::optional<TargetEstimate> committed;       ///< window that COMMIT flies through, in odom
   double committed_sec = 0.0;                    ///< time of `committed`; its uncertainty grows from then on
   std::optional<Eigen::Vector3d> window_odom_m;  ///< last place of the window, normal trusted or not
-  Eigen::Vector3d told_odom_mps = Eigen::Vector3d::Zero();  ///< velocity last commanded
-  double pending_yaw_rad = 0.0;                             ///< commanded, but not turned yet
-  Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity that wind adds
-  Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of gusts [m^2/s^2]
-  double gusts_watched_sec = 0.0;                           ///< duration of that measurement
-  double odometry_disagreement_mps = 0.0;      ///< recently, between odometry's position and velocity
-  double odometry_shift_m = 0.0;               ///< total correction of odometry's positions so far
-  double odometry_unexplained_mps = 0.0;       ///< difference that no steady velocity bias explains
-  double odometry_drift_m_per_sqrt_sec = 0.0;  ///< measured drift of position against velocity
-  Eigen::Vector3d odometry_carried_m = Eigen::Vector3d::Zero();  ///< last `carriedM`
-  bool odometry_bias_known = false;             ///< odometry's velocity bias has been measured
-  std::optional<Eigen::Vector3d> home_odom_m;   ///< where the mission began
-  std::optional<double> keeping_since_sec;      ///< since when the vehicle is to keep a place
-  std::optional<Eigen::Vector3d> place_odom_m;  ///< place to keep: where the vehicle stands or stood
-  std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the target
-  std::vector<Eigen::Vector3d> left_odom_m;     ///< windows left for good: closed, or all tries failed
-  std::vector<std::uint32_t> given_up;          ///< numbers of the windows that were left, in that order
-  bool opening_asked = false;                   ///< the vehicle waits at the commit line for the operator
-  bool opening_confirmed = false;               ///< the operator has confirmed that the target is open
-  bool was_near = false;     ///< the vehicle has approached a window: eaves may be above it
+  std::optional<Eigen::Vector3d> home_odom_m;    ///< where the mission began, for the fence
+  Eigen::Vector3d from_home_m = Eigen::Vector3d::Zero();      ///< the vehicle's last place less `home_odom_m`
+  std::optional<double> keeping_since_sec;                    ///< since when the vehicle is to keep a place
+  std::optional<Eigen::Vector3d> place_odom_m;                ///< place to keep: where it stands or stood
+  Eigen::Vector3d place_carried_m = Eigen::Vector3d::Zero();  ///< part of it: `ContinuousOdometry::carriedM`
+  std::vector<Eigen::Vector3d> others_odom_m;                 ///< windows that are not the target
+  std::vector<Eigen::Vector3d> left_odom_m;  ///< windows left for good: closed, or all tries failed
+  std::vector<std::uint32_t> given_up;       ///< numbers of the windows that were left, in that order
+  bool opening_asked = false;                ///< the vehicle waits at the commit line for the operator
+  bool opening_confirmed = false;            ///< the operator has confirmed that the target is open
+  bool was_near = false;                     ///< the vehicle has approached a window: eaves may be above it
   bool was_in_front = true;  ///< the vehicle was clear of the opening at its last known position
   int others = 0;            ///< how often the vehicle flew at a window that was not the target
   int back_offs = 0;
@@ -61,10 +53,11 @@ struct MissionState {
   void giveUpWindow(const TargetEstimate& window);
   /// As `leaveWindow`, and forgets the other windows: one of them may have been misjudged.
   void forgetWindow();
-  /// Moves the kept place back by the drift (`ContinuousOdometry::carriedM`) since its choice.
-  void bringPlaceBack(const Eigen::Vector3d& carried_m);
-  /// Forgets every place in the odometry frame.
+  /// Forgets every place in the odometry frame; home keeps its place relative to the vehicle.
   void forgetPlaces();
+  /// Notes where the vehicle is: the first time it is home. Moves the kept place back by the drift
+  /// (`ContinuousOdometry::carriedM`) since its choice.
+  void followVehicle(const Eigen::Vector3d& position_odom_m, const Eigen::Vector3d& carried_m);
 };
 
 /// What the vehicle does in one state, from entering to leaving that state.
@@ -80,11 +73,13 @@ class Behaviour {
   const NavigatorParams* params_;
 };
 
+/// The behaviour of a new state; null if the state has none. \param from the state before \param may_climb
+/// see `Search`
+std::unique_ptr<Behaviour> behaviourOf(State state, State from, double now_sec, bool may_climb,
+                                       const NavigatorParams& params);
+
 /// How long the condition has held [s]; negative if it does not hold. Updates the time at which it began.
 double heldSec(bool condition, double now_sec, std::optional<double>& since_sec);
-
-/// Remembers on which side of the window the vehicle is, for when the window's place is forgotten.
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& mission);
 
 /// Leaves a target that turned out to be another window or closed, and remembers its place.
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission);
@@ -93,21 +88,16 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionStat
 /// the direction counts, because the distance was computed with a size that window does not have.
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission);
 
-/// The commit criterion for this vehicle and window, now. \param unseen_sec time since the last information
-/// about the window
-CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
+/// The commit criterion for this window, now. \param unseen_sec time since the last information about it
+CommitCriterion criterionWith(const TargetEstimate& target, const Situation& situation,
                               const MissionState& mission, const NavigatorParams& params,
                               double unseen_sec = 0.0);
 
 /// Forward velocity less the wind's component towards the window; headwind is not compensated.
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& mission);
+double againstTailwind(double forward_mps, const TargetEstimate& target, const Situation& situation);
 
 /// Yaw rate that removes the heading error, less the yaw that is already commanded.
-double yawRateFor(double error_rad, const MissionState& mission, const NavigatorParams& params);
-
-/// Heading error [rad]: relative to the direction of the window's centre; near the wall relative to the
-/// window's normal, because a turned body is wider.
-double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params);
+double yawRateFor(double error_rad, const Situation& situation, const NavigatorParams& params);
 
 /// Velocity along one axis that removes the error (goal minus present): proportional to small errors, limited
 /// to the speed from which the vehicle can stop for large ones (square-root controller, as in autopilots).

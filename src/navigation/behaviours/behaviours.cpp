@@ -1,4 +1,9 @@
-#include "navigation/behaviours/behaviours.hpp"
+#include "navigation/behaviours/align.hpp"
+#include "navigation/behaviours/approach.hpp"
+#include "navigation/behaviours/back_off.hpp"
+#include "navigation/behaviours/commit.hpp"
+#include "navigation/behaviours/hold.hpp"
+#include "navigation/behaviours/search.hpp"
 
 namespace window_ingress::navigation {
 

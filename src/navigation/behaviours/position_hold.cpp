@@ -21,20 +21,17 @@ Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_m
   return {share * velocity.x(), share * velocity.y(), std::clamp(velocity.z(), -limit_mps, limit_mps)};
 }
 
-bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& mission) {
-  if (!mission.trusted) return false;
-  const Eigen::Vector3d normal = uprightRotation(*mission.trusted).col(0);
-  return normal.dot(mission.trusted->T_odom_window.translation() - position_m) < 0.0;
-}
-
 /// Directions towards the windows in front; along the normal where it is known.
 std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, const MissionState& mission) {
   std::vector<Eigen::Vector3d> directions;
-  if (isBehindWindow(position_m, mission)) return directions;
-  if (mission.trusted)
-    directions.push_back(uprightRotation(*mission.trusted).col(0));
-  else if (mission.window_odom_m)
+  if (mission.trusted) {
+    const Eigen::Vector3d normal = normalOf(*mission.trusted);
+    const bool is_behind = normal.dot(mission.trusted->T_odom_window.translation() - position_m) < 0.0;
+    if (is_behind) return directions;
+    directions.push_back(normal);
+  } else if (mission.window_odom_m) {
     directions.push_back(levelDirection(*mission.window_odom_m - position_m));
+  }
   for (const auto* windows : {&mission.left_odom_m, &mission.others_odom_m})
     for (const Eigen::Vector3d& window_odom_m : *windows)
       directions.push_back(levelDirection(window_odom_m - position_m));
@@ -49,18 +46,16 @@ Eigen::Vector3d towardsNoWindow(Eigen::Vector3d way, const std::vector<Eigen::Ve
   return std::any_of(windows.begin(), windows.end(), leadsThere) ? Eigen::Vector3d::Zero().eval() : way;
 }
 
-/// The vehicle is further from its place than wind and its own errors explain.
-bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionState& mission) {
-  return mission.place_odom_m &&
-         (*mission.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
-}
-
 }  // namespace
 
 void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
                    MissionState& mission) {
+  // Further from its place than wind and its own errors explain.
+  const auto isTorn = [&](const Eigen::Vector3d& position_m) {
+    return mission.place_odom_m && (*mission.place_odom_m - position_m).norm() > params.leash_m;
+  };
   if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
-      isTorn(*situation.vehicle, params, mission)) {
+      isTorn(situation.vehicle->T_odom_base.translation())) {
     mission.place_odom_m.reset();
     mission.keeping_since_sec.reset();
     return;

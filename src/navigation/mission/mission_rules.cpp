@@ -1,7 +1,6 @@
 #include "navigation/mission/mission_rules.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "navigation/mission/window_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -24,14 +23,12 @@ double timeoutOf(State state, const TimeoutParams& timeouts) {
 NavigatorParams checked(NavigatorParams params) {
   auto faults = parameters::outOfRange(params);
   for (const auto& fault : parameters::outOfRange(params.vehicle)) faults.push_back("vehicle/" + fault);
-  if (!(params.limits.min_height_m < params.limits.max_height_m)) {
+  if (!(params.limits.min_height_m < params.limits.max_height_m))
     faults.push_back("limits/min_height_m must be below limits/max_height_m");
-  }
-  if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2) {
+  if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2)
     faults.push_back(
         "limits/acceleration_mps2 must not be below vehicle/braking_mps2: setpoints could not brake so hard");
-  }
-  if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
+  parameters::throwIfAny(faults, "navigator");
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;
 }
@@ -40,16 +37,14 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, 
                                       const NavigatorParams& params) {
   std::vector<std::string> faults;
   if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
-  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
-  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
-  if (!situation.camera_fault.empty()) faults.push_back(situation.camera_fault);
-  if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
+  for (const std::string* fault :
+       {&situation.vehicle_fault, &situation.image_fault, &situation.camera_fault, &situation.setpoint_fault})
+    if (!fault->empty()) faults.push_back(*fault);
   if (!engaged)
     faults.push_back("the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
   if (!situation.vehicle) return faults;
-  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
+  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m)
     faults.push_back("the vehicle is above limits/max_height_m");
-  }
   if (const auto plane_m = flown_at.distanceInOpening(*situation.vehicle, params.vehicle))
     faults.push_back(
         formatted("the vehicle is in the opening of the previous mission, %.2f m from its plane: take it a "
@@ -81,20 +76,8 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
   if (!mission.trusted) {
     return is_left && isKnownOther(target, vehicle, mission) ? "a window known not to be the target" : "";
   }
-  const double shift_m =
-      (target.T_odom_window.translation() - mission.trusted->T_odom_window.translation()).norm();
-  if (shift_m <= kMaxShiftM) return "";
-  return formatted("another window, %.1f m from the one flown at", shift_m);
-}
-
-bool hasRetriesLeft(const MissionState& mission, const BackOffParams& params) {
-  return mission.back_offs <= params.max_retries;
-}
-
-std::string goesAstray(double turned_rad) {
-  return formatted(
-      "the vehicle moves %.2f rad off the commanded direction: setpoints and odometry differ in axes",
-      turned_rad);
+  const double shift_m = distanceBetween(target, *mission.trusted);
+  return shift_m <= kMaxShiftM ? "" : formatted("another window, %.1f m from the one flown at", shift_m);
 }
 
 }  // namespace window_ingress::navigation

@@ -33,10 +33,4 @@ std::string missingInput(State state, const Situation& situation);
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
                           const MissionState& mission);
 
-/// Whether the mission may search again after having backed off.
-bool hasRetriesLeft(const MissionState& mission, const BackOffParams& params);
-
-/// Text for the operator: the vehicle's motion is turned against its setpoints.
-std::string goesAstray(double turned_rad);
-
 }  // namespace window_ingress::navigation

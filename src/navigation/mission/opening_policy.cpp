@@ -58,18 +58,10 @@ std::string whatIsAssumed(const CommitParams& params) {
                       : "; will ask for ~confirm_opening if it is not seen to be open");
 }
 
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& mission) {
-  const auto& target = *situation.target;
-  const std::string why = whyClosed(target);
-  if (why.empty()) return std::nullopt;
-  mission.giveUpWindow(target);
-  return Decision{{}, true, Event::kOtherWindow, why};
-}
-
 double lookAside(double waiting_sec, const CommitCriterion& criterion, const CommitParams& params) {
   constexpr double kPeriodSec = 5.0, kPartOfClearance = 0.7;
   const double aside_m =
-      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, criterion.clearance_lateral_m));
+      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, criterion.clearance_m.x()));
   return aside_m * std::sin(2.0 * M_PI * waiting_sec / kPeriodSec);
 }
 

@@ -1,7 +1,6 @@
 /// Whether the vehicle may enter the opening, given its openness.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "navigation/behaviours/behaviour.hpp"
@@ -28,9 +27,6 @@ double waitAtLineSec(const TargetEstimate& target, const CommitParams& params);
 
 /// Text for the start of a mission: what is assumed, and what the vehicle will ask at the commit line.
 std::string whatIsAssumed(const CommitParams& params);
-
-/// If the target was seen to be closed: remembers its place and leaves it for good.
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& mission);
 
 /// Lateral offset from the window's axis after this waiting time [m], to see more of what is behind the
 /// opening: first to one side, then to the other.

@@ -4,15 +4,7 @@
 
 namespace window_ingress::navigation {
 
-namespace {
-
 constexpr double kSamePlaceM = 0.5;
-
-bool inOnePlace(const TargetEstimate& a, const TargetEstimate& b) {
-  return (a.T_odom_window.translation() - b.T_odom_window.translation()).norm() < kSamePlaceM;
-}
-
-}  // namespace
 
 bool wasLeftForGood(const TargetEstimate& target, const MissionState& mission) {
   return std::any_of(mission.left_odom_m.begin(), mission.left_odom_m.end(),
@@ -25,7 +17,8 @@ std::string whySentElsewhere(const Situation& situation, State state, const Miss
   if (state == State::kCommit || !situation.target || !mission.trusted) return "";
   const std::uint32_t now = situation.target->window_id, before = mission.trusted->window_id;
   if (now == 0 || now == before) return "";
-  const bool has_got_its_number = before == 0 && inOnePlace(*situation.target, *mission.trusted);
+  const bool has_got_its_number =
+      before == 0 && distanceBetween(*situation.target, *mission.trusted) < kSamePlaceM;
   if (has_got_its_number) return "";
   return "window " + std::to_string(now) + " is now the target instead of " +
          (before == 0 ? "the window approached so far" : "window " + std::to_string(before));

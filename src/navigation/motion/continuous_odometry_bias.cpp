@@ -51,31 +51,30 @@ void ContinuousOdometry::judgePieces() {
   usual_ = middle;
   for (Eigen::Vector3d* usual_mps : {&usual_.base_mps, &usual_.smooth_mps})
     if (usual_mps->norm() > kMaxBiasMps) *usual_mps *= kMaxBiasMps / usual_mps->norm();
-  const auto besides = [&](Axes axes) {
+  // Lengths of the sums of so many pieces in a row, less the median.
+  const auto besides = [&](Axes axes, std::size_t in_a_row) {
     std::vector<double> lengths_mps;
-    for (const Difference& piece : pieces_)
-      lengths_mps.push_back((piece.*axes - middle.*axes).head<2>().norm());
+    for (std::size_t last = in_a_row - 1; last < pieces_.size(); ++last) {
+      Eigen::Vector3d sum_mps = pieces_[last].*axes;
+      for (std::size_t before = 1; before < in_a_row; ++before) sum_mps += pieces_[last - before].*axes;
+      sum_mps -= static_cast<double>(in_a_row) * middle.*axes;
+      lengths_mps.push_back(sum_mps.head<2>().norm());
+    }
     return lengths_mps;
   };
   const auto squared = [](const std::vector<double>& v) {
     return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
   };
-  std::vector<double> in_body_mps = besides(&Difference::base_mps),
-                      in_world_mps = besides(&Difference::smooth_mps);
+  const auto lesserMedian = [](std::vector<double> a, std::vector<double> b) {
+    return std::min(geometry::median(a), geometry::median(b));
+  };
+  const auto in_body_mps = besides(&Difference::base_mps, 1),
+             in_world_mps = besides(&Difference::smooth_mps, 1);
   const bool is_fixed_in_world = squared(in_world_mps) < kMoreEven * squared(in_body_mps);
   axes_ = is_fixed_in_world ? &Difference::smooth_mps : &Difference::base_mps;
-  const double middle_mps = std::min(geometry::median(in_body_mps), geometry::median(in_world_mps));
-  drift_m_per_sqrt_sec_ = kSigmaOfMedian * middle_mps * std::sqrt(kPieceSec);
-  const auto inSecond = [&](Axes axes) {
-    std::vector<double> lengths_m;
-    for (std::size_t i = 1; i < pieces_.size(); ++i) {
-      const Eigen::Vector3d sum_mps = pieces_[i].*axes + pieces_[i - 1].*axes - 2.0 * middle.*axes;
-      lengths_m.push_back(kPieceSec * sum_mps.head<2>().norm());
-    }
-    return geometry::median(lengths_m);
-  };
-  in_second_m_ =
-      kSigmaOfMedian * std::min(inSecond(&Difference::base_mps), inSecond(&Difference::smooth_mps));
+  drift_m_per_sqrt_sec_ = kSigmaOfMedian * lesserMedian(in_body_mps, in_world_mps) * std::sqrt(kPieceSec);
+  in_second_m_ = kSigmaOfMedian * kPieceSec *
+                 lesserMedian(besides(&Difference::base_mps, 2), besides(&Difference::smooth_mps, 2));
 }
 
 // The bias is known once all pieces are there (median), or once more are alike than any slide lasts.
@@ -125,19 +124,16 @@ Eigen::Vector3d ContinuousOdometry::middleMps(Axes axes) const {
 
 Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
   if (pieces_.size() < kLatePieces) return usual_.*axes_;
-  const Eigen::Vector3d sum_mps =
-      std::accumulate(pieces_.end() - kLatePieces, pieces_.end(), Eigen::Vector3d(0, 0, 0),
-                      [&](const Eigen::Vector3d& sum, const Difference& piece) -> Eigen::Vector3d {
-                        return sum + piece.*axes_;
-                      });
+  Eigen::Vector3d sum_mps = Eigen::Vector3d::Zero();
+  std::for_each(pieces_.end() - kLatePieces, pieces_.end(),
+                [&](const auto& piece) { sum_mps += piece.*axes_; });
   return sum_mps / kLatePieces;
 }
 
 double ContinuousOdometry::byChanceM(double passed_sec) const {
   const double by_chance_m = kMostSigmas * in_second_m_ * std::sqrt(passed_sec / kSecond);
   if (isBiasKnown()) return by_chance_m;
-  return std::min(by_chance_m,
-                  kMaxErrorMps * passed_sec);  // the first pieces may mostly be a slide
+  return std::min(by_chance_m, kMaxErrorMps * passed_sec);  // the first pieces may mostly be a slide
 }
 
 double ContinuousOdometry::unexplainedMps() const {

@@ -2,11 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "navigation/motion/moving_target.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/relative_state.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
@@ -22,10 +22,6 @@ std::string ageFault(const char* what, double stamp_sec, double now_sec, double 
   return "";
 }
 
-double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return std::abs(geometry::wrapAngle(geometry::yawOf(a.linear()) - geometry::yawOf(b.linear())));
-}
-
 constexpr double kFarAwayM = 1e5;
 constexpr double kFasterThanAnyMps = 20.0;
 constexpr double kMoving = 0.1;       // [m/s], [rad/s]
@@ -34,17 +30,18 @@ constexpr double kDeadTimeSec = 0.5;  // a vehicle commanded to move must have m
 constexpr double kTrustedYawJumpRad = 0.35;
 constexpr double kJumpPersistSec = 0.5;  // a window is believed at its new place after this time
 constexpr double kMaxTiltRad = 0.26;     // a window that leans more is rejected
+constexpr double kPeriodWeight = 0.2;    // of the newest period between two images
+
+double headingOf(const TargetEstimate& target) { return geometry::yawOf(target.T_odom_window.linear()); }
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
-  constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
   constexpr double kAlike = 1e-6;
   if (!covariance.allFinite()) return false;
-  Eigen::Matrix4d block;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      block(row, column) = covariance(kUpright[row], kUpright[column]);
-  const bool is_symmetric = block.isApprox(block.transpose(), kAlike);
-  return is_symmetric && block.llt().info() == Eigen::Success;  // llt reads one half only
+  Eigen::Matrix4d upright;  // x, y, z, yaw
+  upright << covariance.topLeftCorner<3, 3>(), covariance.topRightCorner<3, 1>(),
+      covariance.bottomLeftCorner<1, 3>(), covariance(5, 5);
+  const bool is_symmetric = upright.isApprox(upright.transpose(), kAlike);
+  return is_symmetric && upright.llt().info() == Eigen::Success;  // llt reads one half only
 }
 
 bool hasUsableMotion(const TargetEstimate& target) {
@@ -87,8 +84,6 @@ std::string faultOf(const TargetEstimate& target) {
       opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
   return has_size ? "" : "window: size of the opening unknown";
 }
-
-void InputMonitor::reset() { *this = InputMonitor(params_); }
 
 // The window's pose in odom belongs to the time of its image.
 TargetEstimate InputMonitor::inSmooth(TargetEstimate target) const {
@@ -136,15 +131,21 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   situation.vehicle_fault = takeSample(sample, is_newer, situation.now_sec);
   if (!situation.vehicle_fault.empty()) return;
   if (is_newer) smooth_ = odometry_.add(sample);
-  if (smooth_) {
-    situation.vehicle = predictedVehicle(situation.now_sec);
+  situation.odometry = {odometry_.disagreementMps(), odometry_.unexplainedMps(), odometry_.driftMPerSqrtSec(),
+                        odometry_.shiftM(), odometry_.isBiasKnown()};
+  if (!smooth_) {
+    situation.vehicle_fault = "odometry continued at another place after a gap";
+    situation.vehicle_jumped = true;
+    not_before_sec_ = sample.stamp_sec;
+    target_.reset();
+    moved_target_.reset();
     return;
   }
-  situation.vehicle_fault = "odometry continued at another place after a gap";
-  situation.vehicle_jumped = true;
-  not_before_sec_ = sample.stamp_sec;
-  target_.reset();
-  moved_target_.reset();
+  VehicleState now = *smooth_;
+  now.velocity_odom_mps = odometry_.unbiased(*smooth_);
+  now.T_odom_base.translation() +=
+      now.velocity_odom_mps * std::max(0.0, situation.now_sec - vehicle_->stamp_sec);
+  situation.vehicle = now;
 }
 
 std::string InputMonitor::takeSample(const VehicleState& sample, bool is_newer, double now_sec) {
@@ -160,18 +161,12 @@ std::string InputMonitor::takeSample(const VehicleState& sample, bool is_newer, 
   return "";
 }
 
-VehicleState InputMonitor::predictedVehicle(double now_sec) const {
-  VehicleState vehicle = *smooth_;
-  vehicle.velocity_odom_mps = odometry_.unbiased(*smooth_);
-  const double ahead_sec = std::max(0.0, now_sec - vehicle_->stamp_sec);
-  vehicle.T_odom_base.translation() += vehicle.velocity_odom_mps * ahead_sec;
-  return vehicle;
-}
-
 void InputMonitor::told(const Setpoint& setpoint, double now_sec) {
   const bool moves = std::max(setpoint.velocity_odom_mps.norm(), std::abs(setpoint.yaw_rate_radps)) > kMoving;
-  if (!moves || !std::isfinite(now_sec)) told_to_move_sec_.reset();
-  if (moves && !told_to_move_sec_ && std::isfinite(now_sec)) told_to_move_sec_ = now_sec;
+  if (!moves || !std::isfinite(now_sec))
+    told_to_move_sec_.reset();
+  else if (!told_to_move_sec_)
+    told_to_move_sec_ = now_sec;
 }
 
 // A working sensor's noise never repeats itself, and a moving vehicle changes its place.
@@ -188,47 +183,39 @@ bool InputMonitor::isStuck(const VehicleState& vehicle) {
 }
 
 void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation) {
+  const auto ageFaultOf = [&](const TargetEstimate& target) {
+    return ageFault("window", target.stamp_sec, situation.now_sec, params_.max_target_age_sec,
+                    params_.max_future_sec);
+  };
   situation.target_fault = "no window seen";
   if (input.target) {
-    const auto& target = *input.target;
-    std::string fault = faultOf(target);
-    if (fault.empty()) {
-      fault = ageFault("window", target.stamp_sec, situation.now_sec, params_.max_target_age_sec,
-                       params_.max_future_sec);
-    }
-    if (fault.empty() && target.stamp_sec <= not_before_sec_)
+    std::string fault = faultOf(*input.target);
+    if (fault.empty()) fault = ageFaultOf(*input.target);
+    if (fault.empty() && input.target->stamp_sec <= not_before_sec_)
       fault = "window: measured before odometry jumped";
-    if (fault.empty()) situation.target_is_new = acceptTarget(inSmooth(target), situation.now_sec);
-    if (!fault.empty()) situation.target_fault = fault;
+    if (fault.empty())
+      situation.target_is_new = acceptTarget(inSmooth(*input.target), situation.now_sec);
+    else
+      situation.target_fault = fault;
   }
-  if (!target_) return;
-  const std::string age = ageFault("window", target_->stamp_sec, situation.now_sec,
-                                   params_.max_target_age_sec, params_.max_future_sec);
-  if (age.empty()) {
-    situation.target = ahead(*target_, situation.now_sec);
-    situation.target_fault.clear();
-  }
-}
-
-bool InputMonitor::staysAtNewPlace(const TargetEstimate& target) const {
-  if (!moved_target_ || target.stamp_sec - moved_target_->stamp_sec > params_.max_target_age_sec)
-    return false;
-  const Eigen::Vector3d moved =
-      target.T_odom_window.translation() - moved_target_->T_odom_window.translation();
-  return moved.norm() < params_.max_target_jump_m;
+  if (!target_ || !ageFaultOf(*target_).empty()) return;
+  situation.target = ahead(*target_, situation.now_sec);
+  situation.target_fault.clear();
 }
 
 bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
   if (target_ && target.stamp_sec <= target_->stamp_sec) return false;
-  if (target_) {
-    const double moved_m = (target.T_odom_window.translation() - target_->T_odom_window.translation()).norm();
-    const bool turned = target.sign_trusted && target_->sign_trusted &&
-                        yawBetween(target.T_odom_window, target_->T_odom_window) > kTrustedYawJumpRad;
-    if (moved_m > params_.max_target_jump_m || turned) {
-      if (!staysAtNewPlace(target)) moved_since_sec_ = now_sec;
-      moved_target_ = target;
-      if (now_sec - moved_since_sec_ < kJumpPersistSec) return false;
-    }
+  const bool has_moved = target_ && distanceBetween(target, *target_) > params_.max_target_jump_m;
+  const bool has_turned =
+      target_ && target.sign_trusted && target_->sign_trusted &&
+      std::abs(geometry::wrapAngle(headingOf(target) - headingOf(*target_))) > kTrustedYawJumpRad;
+  if (has_moved || has_turned) {
+    const bool stays_there = moved_target_ &&
+                             target.stamp_sec - moved_target_->stamp_sec <= params_.max_target_age_sec &&
+                             distanceBetween(target, *moved_target_) < params_.max_target_jump_m;
+    if (!stays_there) moved_since_sec_ = now_sec;
+    moved_target_ = target;
+    if (now_sec - moved_since_sec_ < kJumpPersistSec) return false;
   }
   moved_target_.reset();
   target_ = target;
@@ -240,17 +227,13 @@ void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation)
   if (!input.image_stamp_sec) return;
   situation.image_fault = ageFault("last image", *input.image_stamp_sec, situation.now_sec,
                                    params_.max_image_age_sec, params_.max_future_sec);
-  if (situation.image_fault.empty()) measurePeriod(*input.image_stamp_sec);
   situation.image_period_sec = image_period_sec_;
-}
-
-void InputMonitor::measurePeriod(double image_stamp_sec) {
-  constexpr double kWeight = 0.2;
-  if (image_stamp_sec_ == image_stamp_sec) return;
-  const double period_sec = image_stamp_sec_ ? image_stamp_sec - *image_stamp_sec_ : 0.0;
-  image_stamp_sec_ = image_stamp_sec;
+  if (!situation.image_fault.empty() || image_stamp_sec_ == input.image_stamp_sec) return;
+  const double period_sec = image_stamp_sec_ ? *input.image_stamp_sec - *image_stamp_sec_ : 0.0;
+  image_stamp_sec_ = input.image_stamp_sec;
   if (!(period_sec > 0.0 && period_sec < params_.max_image_age_sec)) return;
-  image_period_sec_ += (image_period_sec_ > 0.0 ? kWeight : 1.0) * (period_sec - image_period_sec_);
+  image_period_sec_ += (image_period_sec_ > 0.0 ? kPeriodWeight : 1.0) * (period_sec - image_period_sec_);
+  situation.image_period_sec = image_period_sec_;
 }
 
 }  // namespace window_ingress::navigation

@@ -10,8 +10,18 @@
 
 namespace window_ingress::navigation {
 
-/// The checked input of one step, in the jump-free frame (`ContinuousOdometry`). A value that is set can be
-/// used; each missing value has a fault text with numbers.
+/// How far odometry's position and velocity agree (`ContinuousOdometry`).
+struct OdometryQuality {
+  double disagreement_mps = 0.0;      ///< recently, between position and velocity
+  double unexplained_mps = 0.0;       ///< difference that no steady velocity bias explains
+  double drift_m_per_sqrt_sec = 0.0;  ///< measured drift of position against velocity
+  double shift_m = 0.0;               ///< total correction of the positions so far
+  bool is_bias_known = false;         ///< the velocity's bias has been measured
+};
+
+/// What is known in one step, in the jump-free frame (`ContinuousOdometry`): the checked input, and what was
+/// measured in flight so far. A value that is set can be used; each missing value has a fault text with
+/// numbers.
 struct Situation {
   double now_sec = 0.0;
   double dt_sec = 0.0;                  ///< since the previous step, limited to 0 .. 0.2 s
@@ -25,6 +35,12 @@ struct Situation {
   std::string image_fault;        ///< empty if images come
   std::string camera_fault;       ///< why no image can give a pose; empty if there is no reason
   double image_period_sec = 0.0;  ///< recent mean period of the searched images; 0: not known yet
+  OdometryQuality odometry;
+  Eigen::Vector3d told_odom_mps = Eigen::Vector3d::Zero();  ///< velocity last commanded
+  double pending_yaw_rad = 0.0;                             ///< commanded, but not turned yet
+  Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity that wind adds
+  Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of gusts [m^2/s^2]
+  double gusts_watched_sec = 0.0;                           ///< duration of that measurement
 };
 
 /// Remembers the last good samples. A bad target sample counts as none: the last good one holds until it is
@@ -40,7 +56,7 @@ class InputMonitor {
   Situation judge(const NavigatorInput& input, double now_sec);
   /// Notes the last setpoint: odometry is stuck if it repeats itself to the bit while the vehicle is to move.
   void told(const Setpoint& setpoint, double now_sec);
-  void reset();
+  void reset() { *this = InputMonitor(params_); }
   /// Relation between odom, as in messages, and the jump-free frame of `Situation`.
   const ContinuousOdometry& odometry() const { return odometry_; }
 
@@ -49,13 +65,10 @@ class InputMonitor {
   void judgeVehicle(const NavigatorInput& input, Situation& situation);
   /// Notes the newest sample. Returns why it cannot be used; empty if it can.
   std::string takeSample(const VehicleState& sample, bool is_newer, double now_sec);
-  VehicleState predictedVehicle(double now_sec) const;  ///< by `smooth_`, from its stamp to now
   void judgeTarget(const NavigatorInput& input, Situation& situation);
   void judgeImage(const NavigatorInput& input, Situation& situation);
   bool isStuck(const VehicleState& vehicle);
-  void measurePeriod(double image_stamp_sec);
   TargetEstimate inSmooth(TargetEstimate target) const;
-  bool staysAtNewPlace(const TargetEstimate& target) const;
   bool acceptTarget(const TargetEstimate& target, double now_sec);
 
   InputParams params_;

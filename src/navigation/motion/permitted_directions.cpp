@@ -11,7 +11,7 @@ namespace {
 
 /// The velocity less its part towards the window.
 Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEstimate& target) {
-  const Eigen::Vector3d normal = uprightRotation(target).col(0);
+  const Eigen::Vector3d normal = normalOf(target);
   return velocity - std::max(0.0, velocity.dot(normal)) * normal;
 }
 
@@ -39,35 +39,26 @@ Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleStat
   return R_odom_window * kept;
 }
 
-/// Permitted part of a velocity without forward component: near the wall and outside the funnel only away.
-Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
-                             const CommitCriterion& criterion, const NavigatorParams& params) {
-  const auto& target = *situation.target;
-  const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
-  return is_near && !criterion.in_funnel ? awayAndToAxis(velocity, *situation.vehicle, target) : velocity;
-}
-
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
                                       const Situation& situation, const MissionState& mission,
                                       const NavigatorParams& params) {
   const auto& target = *situation.target;
-  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, mission, params);
   const double distance_m = relate(*situation.vehicle, target).distance();
   if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, mission, params);
+  const CommitCriterion criterion = criterionWith(target, situation, mission, params);
   const bool before_line = distance_m > criterion.commit_distance_m;
   const bool may_advance = state == State::kApproach && target.approach_forbidden.empty() &&
                            (criterion.holds || (before_line && criterion.in_funnel));
   if (may_advance) return velocity;
-  return awayFromWall(withoutForward(velocity, target), situation, criterion, params);
+  const Eigen::Vector3d kept = withoutForward(velocity, target);
+  const bool is_beside_opening = distance_m < params.limits.wall_distance_m && !criterion.in_funnel;
+  return is_beside_opening ? awayAndToAxis(kept, *situation.vehicle, target) : kept;
 }
 
-Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,
-                                   const MissionState& mission, const NavigatorParams& params) {
-  if (!mission.trusted) return Eigen::Vector3d::Zero();
-  const bool in_reveal =
-      relate(*situation.vehicle, *mission.trusted).distance() < params.vehicle.half_length_m;
-  return in_reveal ? awayAndToAxis(velocity, *situation.vehicle, *mission.trusted)
-                   : withoutForward(velocity, *mission.trusted);
+Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const VehicleState& vehicle,
+                                   const TargetEstimate& window, const VehicleParams& body) {
+  const bool in_reveal = relate(vehicle, window).distance() < body.half_length_m;
+  return in_reveal ? awayAndToAxis(velocity, vehicle, window) : withoutForward(velocity, window);
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
@@ -84,7 +75,9 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
     case State::kCommit:
       return mission.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case State::kBackOff:
-      return permittedBackwards(velocity, situation, mission, params);
+      return mission.trusted
+                 ? permittedBackwards(velocity, *situation.vehicle, *mission.trusted, params.vehicle)
+                 : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case State::kHold:
     case State::kPassed:
       return onlyToPlace(velocity, *situation.vehicle, mission, params.hold);
@@ -93,12 +86,6 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
       break;
   }
   return Eigen::Vector3d::Zero();
-}
-
-double withinHeights(double climb_mps, double height_m, const NavigatorParams& params) {
-  const double up = stoppingSpeed(params.limits.max_height_m - height_m, params.vehicle);
-  const double down = stoppingSpeed(height_m - params.limits.min_height_m, params.vehicle);
-  return std::clamp(climb_mps, -down, up);
 }
 
 /// Limits the outward speed so that the vehicle can stop at the fence.
@@ -122,7 +109,9 @@ Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, Stat
   if (!situation.vehicle) return Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, mission, params);
   const Eigen::Vector3d position_m = situation.vehicle->T_odom_base.translation();
-  velocity.z() = withinHeights(velocity.z(), position_m.z(), params);
+  velocity.z() =
+      std::clamp(velocity.z(), -stoppingSpeed(position_m.z() - params.limits.min_height_m, params.vehicle),
+                 stoppingSpeed(params.limits.max_height_m - position_m.z(), params.vehicle));
   return withinFence(velocity, position_m, mission, params);
 }
 

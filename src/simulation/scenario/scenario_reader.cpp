@@ -6,7 +6,7 @@
 #include "parameters/yaml_nodes.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
-#include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
 
@@ -37,7 +37,8 @@ class ScenarioReader {
     Params::visit(params, *this);
     for (const auto& entry : entries_)
       if (std::find(asked_.begin(), asked_.end(), path_ + entry.name) == asked_.end())
-        draws_.faults.add(faultAt(entry.key, parameters::unknownKey(entry.name, path_ + entry.name, asked_) +
+        draws_.faults.add(faultAt(entry.key, entry.name + ": unknown key" +
+                                                 parameters::didYouMean(path_ + entry.name, asked_) +
                                                  "; see doc/scenarios.md"));
   }
 

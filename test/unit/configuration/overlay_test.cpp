@@ -5,7 +5,7 @@
 #include <string>
 
 #include "refusal.hpp"
-#include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::configuration::overlay_test {

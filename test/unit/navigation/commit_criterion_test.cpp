@@ -13,7 +13,7 @@ namespace window_ingress::navigation::commit_criterion_test {
 RelativeState at(double distance_m, double lateral_m = 0.0, double sigma_m = 0.01) {
   RelativeState relative;
   relative.position_window_m = {-distance_m, lateral_m, 0.0};
-  relative.sigma_lateral_m = relative.sigma_vertical_m = sigma_m;
+  relative.sigma_m.setConstant(sigma_m);
   return relative;
 }
 
@@ -31,11 +31,11 @@ TEST(CommitDistance, IsWhereTheOpeningOutgrowsTheView) {
   params.vehicle.half_length_m = 0.05;
   params.commit.speed_mps = 0.3;  // so that the stopping distance does not matter
   params.commit.view_margin_m = 0.0;
-  params.vehicle.camera_forward_m = 0.0;
+  params.vehicle.camera.forward_m = 0.0;
   const double level = commitDistance(at(2.0), kOpening, 0.0, params);
-  EXPECT_NEAR(level, 0.5 / std::tan(params.vehicle.vertical_fov_rad / 2.0), 1e-12);
+  EXPECT_NEAR(level, 0.5 / std::tan(params.vehicle.camera.vertical_fov_rad / 2.0), 1e-12);
   EXPECT_NEAR(commitDistance(at(2.0), kOpening, 0.17, params),
-              0.5 / std::tan(params.vehicle.vertical_fov_rad / 2.0 - 0.17), 1e-12);
+              0.5 / std::tan(params.vehicle.camera.vertical_fov_rad / 2.0 - 0.17), 1e-12);
   EXPECT_GT(commitDistance(at(2.0, 0.3), kOpening, 0.0, params), level);
 }
 
@@ -90,37 +90,37 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   input.opening = kOpening;
   const double blind_sec = 0.8 / params.commit.speed_mps;
   const double drift_m = params.vehicle.odom_drift_m_per_sqrt_sec * std::sqrt(blind_sec);
-  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_m.x(), 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
   input.drift_m_per_sqrt_sec = 0.05;
-  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m,
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_m.x(),
               3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
   input.drift_m_per_sqrt_sec = 0.0;
 
-  input.gust_lateral_mps = 0.045;
+  input.gusts_mps.x() = 0.045;
   const double answered_sec = params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz;
   const double gust_m = 0.045 * 0.73 * answered_sec;
   const auto gusty = evaluateCommitCriterion(input, params);
-  EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
-  EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
-  input.gust_lateral_mps = 0.4;
-  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * 0.4 * answered_sec)
+  EXPECT_NEAR(gusty.miss_m.x(), 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
+  EXPECT_NEAR(gusty.miss_m.y(), 3.0 * std::hypot(0.01, drift_m), 1e-12);
+  input.gusts_mps.x() = 0.4;
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_m.x(), 3.0 * 0.4 * answered_sec)
       << "calm does not hide what carries";
   CommitCriterionInput early = input;
   early.gusts_watched_sec = 3.0;
-  EXPECT_GT(evaluateCommitCriterion(early, params).miss_lateral_m,
-            1.25 * evaluateCommitCriterion(input, params).miss_lateral_m)
+  EXPECT_GT(evaluateCommitCriterion(early, params).miss_m.x(),
+            1.25 * evaluateCommitCriterion(input, params).miss_m.x())
       << "of few gusts the strongest was not among them";
   NavigatorParams late = params;
   late.vehicle.response_sec = 0.9;
-  EXPECT_GT(evaluateCommitCriterion(input, late).miss_lateral_m,
-            1.5 * evaluateCommitCriterion(input, params).miss_lateral_m)
+  EXPECT_GT(evaluateCommitCriterion(input, late).miss_m.x(),
+            1.5 * evaluateCommitCriterion(input, params).miss_m.x())
       << "what answers late is carried further";
   EXPECT_FALSE(evaluateCommitCriterion(input, params).holds);
 
-  input.gust_lateral_mps = 0.0;
+  input.gusts_mps.x() = 0.0;
   input.unseen_sec = 4.0;
-  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m,
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_m.x(),
               3.0 * std::hypot(0.01, params.vehicle.odom_drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)),
               1e-12);
 }
@@ -134,23 +134,22 @@ TEST(CommitCriterion, AVelocityThatIsOffIsAMiss) {
   input.opening = kOpening;
   const CommitCriterion before = evaluateCommitCriterion(input, params);
   input.odometry_mps = 0.05;
-  EXPECT_EQ(evaluateCommitCriterion(input, params).miss_lateral_m, before.miss_lateral_m)
-      << "as with any odometry";
+  EXPECT_EQ(evaluateCommitCriterion(input, params).miss_m.x(), before.miss_m.x()) << "as with any odometry";
   input.odometry_mps = 0.3;
   const double least_m = 0.2 * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
-  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, before.miss_lateral_m + least_m);
-  EXPECT_GT(evaluateCommitCriterion(input, params).miss_vertical_m, before.miss_vertical_m + least_m);
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_m.x(), before.miss_m.x() + least_m);
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_m.y(), before.miss_m.y() + least_m);
 }
 
 TEST(CommitCriterion, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
   double before = 10.0;
   for (double distance = 0.3; distance < 3.0; distance += 0.1) {
-    const double miss_m = criterionOf(at(distance, 0.2, 0.0)).miss_lateral_m;
+    const double miss_m = criterionOf(at(distance, 0.2, 0.0)).miss_m.x();
     EXPECT_LE(miss_m, before + 0.02) << distance;
     before = miss_m;
   }
-  EXPECT_GT(criterionOf(at(0.3, 0.2, 0.0)).miss_lateral_m, 0.2);
-  EXPECT_GT(criterionOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
+  EXPECT_GT(criterionOf(at(0.3, 0.2, 0.0)).miss_m.x(), 0.2);
+  EXPECT_GT(criterionOf(at(1.5, 0.2, 0.0)).miss_m.x(), 0.05);
 }
 
 TEST(CommitCriterion, SettlesOffTheAxisWhereTheVelocityDoesNotFollowWhatSteeringAsks) {
@@ -158,7 +157,7 @@ TEST(CommitCriterion, SettlesOffTheAxisWhereTheVelocityDoesNotFollowWhatSteering
   const auto settledAt = [](double lateral_m, double across_mps) {
     RelativeState relative = at(1.6, lateral_m);
     relative.velocity_window_mps = {0.9, across_mps, 0.0};
-    return criterionOf(relative).settled_lateral_m;
+    return criterionOf(relative).settled_m.x();
   };
   EXPECT_LT(settledAt(0.1, -0.1 * params.align.lateral_gain_hz), 0.06) << "steered onto the axis";
   EXPECT_GT(settledAt(0.05, 0.25), 0.2) << "carried off it";
@@ -172,7 +171,7 @@ TEST(CommitCriterion, DoesNotHoldWhileTheVehicleIsCarriedOffTheAxis) {
   EXPECT_TRUE(criterionOf(relative).holds);
   relative.velocity_window_mps.y() = 0.295;
   const CommitCriterion carried = criterionOf(relative);
-  EXPECT_LT(carried.missM(), carried.clearance_lateral_m);
+  EXPECT_LT(carried.miss_m.maxCoeff(), carried.clearance_m.x());
   EXPECT_EQ(carried.unmet.find("carried off the axis"), 0u) << carried.unmet;
 }
 

@@ -98,8 +98,7 @@ TEST_F(NavigatorSteps, TheCommitLineIsThatOfTheCameraThereIsNotOfTheOneConfigure
     input.camera = camera;
     return navigator.step(input, now_).report.commit_distance_m;
   };
-  CameraInBody camera{params_.vehicle.camera_forward_m, params_.vehicle.horizontal_fov_rad,
-                      params_.vehicle.vertical_fov_rad, params_.vehicle.pixel_rad};
+  CameraInBody camera = params_.vehicle.camera;
   const double configured_m = commitDistance(std::nullopt);
   EXPECT_DOUBLE_EQ(commitDistance(camera), configured_m);
   camera.forward_m += 0.2;

@@ -63,7 +63,7 @@ TEST(RelativeState, LateralSigmaIsThatOfAMonteCarlo) {
     squares += lateral * lateral;
   }
   const double sigma = std::sqrt(squares / kSamples - std::pow(sum / kSamples, 2));
-  EXPECT_NEAR(relate(vehicle, target).sigma_lateral_m / sigma, 1.0, 0.03);
+  EXPECT_NEAR(relate(vehicle, target).sigma_m.x() / sigma, 1.0, 0.03);
 }
 
 TEST(RelativeState, AHeadingThatIsOffLeadsPastTheOpening) {
@@ -72,7 +72,7 @@ TEST(RelativeState, AHeadingThatIsOffLeadsPastTheOpening) {
   Eigen::Matrix<double, 6, 1> turn = Eigen::Matrix<double, 6, 1>::Zero();  // of the window, about the vehicle
   turn(1) = 3.0, turn(5) = 1.0;
   target.covariance = 0.03 * 0.03 * turn * turn.transpose();
-  EXPECT_NEAR(relate(vehicle, target).sigma_lateral_m, 0.09, 1e-9);
+  EXPECT_NEAR(relate(vehicle, target).sigma_m.x(), 0.09, 1e-9);
 }
 
 }  // namespace window_ingress::navigation::relative_state_test

@@ -1,9 +1,10 @@
+#include "navigation/behaviours/align.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "navigation/behaviours/behaviours.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::align_test {

@@ -1,8 +1,9 @@
+#include "navigation/behaviours/approach.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "navigation/behaviours/behaviours.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::approach_test {

@@ -1,8 +1,9 @@
+#include "navigation/behaviours/back_off.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "navigation/behaviours/behaviours.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -3,13 +3,27 @@
 #include <cmath>
 #include <string>
 
-#include "navigation/behaviours/behaviours.hpp"
+#include "navigation/behaviours/align.hpp"
+#include "navigation/behaviours/search.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation::behaviour_test {
 
 const NavigatorParams kDefaults = test::withoutGlass();
+
+TEST(Home, IsWhereTheMissionBeganAndStaysThereWhenTheOdometryJumps) {
+  MissionState mission;
+  mission.followVehicle({1, 2, 1}, {0, 0, 0});
+  mission.followVehicle({4, 6, 1}, {0, 0, 0});
+  EXPECT_EQ(*mission.home_odom_m, Eigen::Vector3d(1, 2, 1));
+  EXPECT_EQ(mission.from_home_m, Eigen::Vector3d(3, 4, 0));
+  mission.forgetPlaces();
+  EXPECT_EQ(mission.from_home_m, Eigen::Vector3d(3, 4, 0)) << "until odometry comes back";
+  mission.followVehicle({104, 6, 1}, {0, 0, 0});
+  EXPECT_EQ(*mission.home_odom_m, Eigen::Vector3d(101, 2, 1));
+  EXPECT_EQ(mission.from_home_m, Eigen::Vector3d(3, 4, 0));
+}
 
 TEST(VelocityTowards, AsksForNoHarderBrakingThanTheVehicleHas) {
   NavigatorParams params;

@@ -1,9 +1,9 @@
+#include "navigation/behaviours/commit.hpp"
+
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "navigation/behaviours/behaviours.hpp"
-#include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::commit_test {
@@ -13,9 +13,9 @@ const NavigatorParams kDefaults = test::withoutGlass();
 TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   MissionState mission;
   mission.committed = test::targetAtOrigin(0.0);
-  mission.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   Commit commit{kDefaults};
   auto at_exit = test::situationAt({kDefaults.commit.exit_distance_m, 0.0, 1.5}, 0.0, false);
+  at_exit.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   const auto decision = commit.step(at_exit, mission);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
@@ -27,9 +27,10 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTol
   const auto eventAt = [](double distance_m, double told_mps) {
     MissionState mission;
     mission.committed = test::targetAtOrigin(0.0);
-    mission.told_odom_mps = {told_mps, 0.0, 0.0};
+    Situation situation = test::situationAt({-distance_m, kBesideM, 1.5}, 0.0, false);
+    situation.told_odom_mps = {told_mps, 0.0, 0.0};
     Commit commit{kDefaults};
-    return commit.step(test::situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), mission).event;
+    return commit.step(situation, mission).event;
   };
   const auto& vehicle = kDefaults.vehicle;
   const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // gained before it responds
@@ -65,10 +66,10 @@ TEST(CommitBehaviour, IsNoFasterThanToldWithTheWindBehindIt) {
   const auto forwardWith = [](double wind_mps) {
     MissionState mission;
     mission.committed = test::targetAtOrigin(0.0);
-    mission.wind_odom_mps.x() = wind_mps;
     Commit commit{kDefaults};
     auto situation = test::situationAt({-0.5, 0.0, 1.5}, 0.0, false);
     situation.vehicle->velocity_odom_mps.x() = 0.95;
+    situation.wind_odom_mps.x() = wind_mps;
     return commit.step(situation, mission).wish.velocity_odom_mps.x();
   };
   EXPECT_NEAR(forwardWith(0.3), forwardWith(0.0) - 0.3, 1e-9);

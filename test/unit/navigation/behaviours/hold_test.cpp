@@ -1,9 +1,10 @@
+#include "navigation/behaviours/hold.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "navigation/behaviours/behaviours.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::hold_test {

@@ -42,9 +42,9 @@ TEST(PositionHold, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
 
 TEST(PositionHold, IsBroughtBackByWhatTheVehicleWasCarriedOffByOnce) {
   MissionState mission;
-  mission.bringPlaceBack({9, 0, 0});  // before there is a place
+  mission.followVehicle({0, 0, 1}, {9, 0, 0});  // before there is a place
   rememberPlace(true, standingAt({1, 2, 1}), HoldParams(), mission);
-  for (int i = 0; i < 3; ++i) mission.bringPlaceBack({9.5, 0.3, 0});
+  for (int i = 0; i < 3; ++i) mission.followVehicle({0, 0, 1}, {9.5, 0.3, 0});
   EXPECT_LT((*mission.place_odom_m - Eigen::Vector3d(1.5, 2.3, 1)).norm(), 1e-12);
 }
 

@@ -1,8 +1,9 @@
+#include "navigation/behaviours/search.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "navigation/behaviours/behaviours.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -31,12 +32,13 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
 
 TEST(SearchBehaviour, DoesNotClimbWhereItsPlaceIsUncertain) {
   MissionState mission;
-  mission.odometry_shift_m = 0.5;
   const NavigatorParams params = test::withoutGlass();
   Search search{params, true};
   double yaw = 0.0;
   for (Decision decision; !decision.event;) {
-    decision = search.step(test::situationAt({-4, 1, 1.5}, 0.0, false, yaw), mission);
+    Situation situation = test::situationAt({-4, 1, 1.5}, 0.0, false, yaw);
+    situation.odometry.shift_m = 0.5;
+    decision = search.step(situation, mission);
     EXPECT_EQ(decision.wish.velocity_odom_mps.z(), 0.0);
     yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
   }
@@ -87,9 +89,9 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewImages) {
     return search.step(situation, mission).wish.yaw_rate_radps;
   };
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
-  EXPECT_DOUBLE_EQ(rateWith(1.0), Search::kMaxTurnPerImage * params.vehicle.horizontal_fov_rad);
+  EXPECT_DOUBLE_EQ(rateWith(1.0), Search::kMaxTurnPerImage * params.vehicle.camera.horizontal_fov_rad);
   params.vehicle.exposure_sec = 0.02;
-  EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.max_blur_px * params.vehicle.pixel_rad / 0.02);
+  EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.max_blur_px * params.vehicle.camera.pixel_rad / 0.02);
 }
 
 }  // namespace window_ingress::navigation::search_test

@@ -115,11 +115,13 @@ TEST(OpeningPolicy, IsPartOfTheContractAfterItsGeometry) {
   const auto params = paramsFor("ask");
   auto target = test::targetAtOrigin(0.0);
   target.openness.openness = Openness::kUnknown;
-  const CommitCriterion on_axis = criterionWith(target, test::vehicleAt({-1.5, 0, 1.5}, 0.0), {}, params);
+  const CommitCriterion on_axis =
+      criterionWith(target, test::situationAt({-1.5, 0, 1.5}, 0.0, false), {}, params);
   EXPECT_TRUE(on_axis.opening_unverified);
   EXPECT_FALSE(on_axis.holds);
   EXPECT_NE(on_axis.unmet.find("is it open?"), std::string::npos);
-  const CommitCriterion aside = criterionWith(target, test::vehicleAt({-1.5, 0.4, 1.5}, 0.0), {}, params);
+  const CommitCriterion aside =
+      criterionWith(target, test::situationAt({-1.5, 0.4, 1.5}, 0.0, false), {}, params);
   EXPECT_NE(aside.unmet.find("lateral offset"), std::string::npos);
 }
 
@@ -128,7 +130,7 @@ TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
   Situation situation;
   situation.vehicle = test::vehicleAt({-4, 0, 1.5}, 0.0);
   situation.target = test::targetAtOrigin(0.0);
-  EXPECT_FALSE(leaveClosedOpening(situation, mission));
+  EXPECT_FALSE(leaveOtherWindow(situation, mission));
   mission.trusted = situation.target;
   mission.opening_confirmed = true;
   situation.target->openness.openness = Openness::kClosed;
@@ -146,12 +148,12 @@ TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
 
 TEST(OpeningPolicy, LooksToBothSidesWithinTheClearance) {
   CommitCriterion criterion;
-  criterion.clearance_lateral_m = 0.3;
+  criterion.clearance_m.x() = 0.3;
   CommitParams params;
   EXPECT_GT(lookAside(0.5, criterion, params), 0.0);
   EXPECT_NEAR(lookAside(3.0, criterion, params), -lookAside(0.5, criterion, params), 1e-9);
   for (const double clearance_m : {-0.1, 0.0, 0.05, 0.3, 2.0}) {
-    criterion.clearance_lateral_m = clearance_m;
+    criterion.clearance_m.x() = clearance_m;
     EXPECT_LE(std::abs(lookAside(1.0, criterion, params)), std::max(0.0, clearance_m));
     EXPECT_LE(std::abs(lookAside(1.0, criterion, params)), params.look_aside_m);
   }

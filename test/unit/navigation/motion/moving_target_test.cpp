@@ -92,7 +92,7 @@ TEST(MovingTarget, IsCommittedToOnlyIfItCannotMoveAway) {
   const CommitCriterion standing = evaluateCommitCriterion(input, params);
   input.motion = swinging().motion;
   const CommitCriterion slow = evaluateCommitCriterion(input, params);
-  EXPECT_GT(slow.miss_lateral_m, standing.miss_lateral_m);
+  EXPECT_GT(slow.miss_m.x(), standing.miss_m.x());
   input.motion.model.speed_mps = 0.5;
   input.motion.velocity_sigma_mps = 0.4;
   const CommitCriterion wild = evaluateCommitCriterion(input, params);

@@ -99,9 +99,8 @@ TEST_F(PermittedDirections, APlaceFarBelowIsGoneBackToSidewaysAllTheSame) {
 TEST_F(PermittedDirections, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
   situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
   for (const double disagreement_mps : {0.0, 0.3, 0.4, 2.0}) {
-    mission_.odometry_disagreement_mps = disagreement_mps;
-    const CommitCriterion criterion =
-        criterionWith(*situation_.target, *situation_.vehicle, mission_, params_);
+    situation_.odometry.disagreement_mps = disagreement_mps;
+    const CommitCriterion criterion = criterionWith(*situation_.target, situation_, mission_, params_);
     EXPECT_EQ(criterion.holds, disagreement_mps < 0.35) << disagreement_mps;
     EXPECT_EQ(criterion.unmet.find("odometry") != std::string::npos, !criterion.holds) << criterion.unmet;
   }
@@ -111,10 +110,9 @@ TEST_F(PermittedDirections, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeS
   situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
   for (const bool is_known : {false, true}) {
     for (const double unexplained_mps : {0.0, 0.05, 0.1}) {
-      mission_.odometry_bias_known = is_known;
-      mission_.odometry_unexplained_mps = unexplained_mps;
-      const CommitCriterion criterion =
-          criterionWith(*situation_.target, *situation_.vehicle, mission_, params_);
+      situation_.odometry.is_bias_known = is_known;
+      situation_.odometry.unexplained_mps = unexplained_mps;
+      const CommitCriterion criterion = criterionWith(*situation_.target, situation_, mission_, params_);
       EXPECT_EQ(criterion.holds, is_known || unexplained_mps < 0.08) << unexplained_mps;
       EXPECT_EQ(criterion.unmet.find("constant bias") != std::string::npos, !criterion.holds)
           << criterion.unmet;
@@ -152,7 +150,7 @@ TEST_F(PermittedDirections, ApproachHeedsWhatForbidsIt) {
 TEST_F(PermittedDirections, AtTheCommitLineOnlyByTheContract) {
   for (const double y_m : {0.0, 0.33}) {
     situation_.vehicle = test::vehicleAt({-1.0, y_m, 1.5}, 0.0);
-    const bool holds = criterionWith(*situation_.target, *situation_.vehicle, mission_, params_).holds;
+    const bool holds = criterionWith(*situation_.target, situation_, mission_, params_).holds;
     ASSERT_EQ(holds, y_m == 0.0);
     EXPECT_EQ(permitted(State::kApproach).x() > 0.0, holds);
   }
@@ -160,7 +158,7 @@ TEST_F(PermittedDirections, AtTheCommitLineOnlyByTheContract) {
 
 TEST_F(PermittedDirections, BehindTheCommitLineTheFunnelIsNotEnough) {
   situation_.vehicle = test::vehicleAt({-1.0, 0.0, 1.5}, 0.0, 0.5);  // heading off the normal
-  const CommitCriterion criterion = criterionWith(*situation_.target, *situation_.vehicle, mission_, params_);
+  const CommitCriterion criterion = criterionWith(*situation_.target, situation_, mission_, params_);
   ASSERT_TRUE(criterion.in_funnel && !criterion.holds);
   EXPECT_EQ(permitted(State::kApproach).x(), 0.0);
 }
