@@ -30,8 +30,7 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 
 # Only those adapters that need no node.
-add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
-                      ${source_root}/adapters/guard/setpoint_gate.cpp ${source_root}/adapters/inputs/stamp_gate.cpp ${fuzz_folder}/any_image.cpp
+add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp ${fuzz_folder}/any_image.cpp
                       ${source_root}/adapters/images/image_conversion.cpp ${source_root}/adapters/images/image_files.cpp
                       LIBRARIES fuzz_core JPEG::JPEG PNG::PNG ${catkin_LIBRARIES})
 target_include_directories(fuzz_messages PUBLIC ${source_root})

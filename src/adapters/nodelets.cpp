@@ -9,14 +9,12 @@
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "adapters/images/detector_node.hpp"
-#include "adapters/navigator/navigator_node.hpp"
-#include "adapters/pose/pose_node.hpp"
+#include "adapters/nodes.hpp"
 #include "adapters/runtime/console_output.hpp"
 
 namespace window_ingress::adapters {
 
-template <typename Class>
+template <MakeNode& make>
 class NodeletOf : public nodelet::Nodelet {
  public:
   ~NodeletOf() override {
@@ -32,20 +30,20 @@ class NodeletOf : public nodelet::Nodelet {
       ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
       nh.setCallbackQueue(&queue_);
       pnh.setCallbackQueue(&queue_);
-      node_ = std::make_unique<Class>(nh, pnh);
+      node_ = make(nh, pnh);
       spinner_.start();
     } catch (const std::exception& error) {
       NODELET_FATAL("%s: not started: %s", getName().c_str(), error.what());
     }
   }
   ros::CallbackQueue queue_;
-  std::unique_ptr<Class> node_;
+  std::unique_ptr<Node> node_;
   ros::AsyncSpinner spinner_{1, &queue_};
 };
 
-class WindowDetectorNodelet : public NodeletOf<DetectorNode> {};
-class HomographyPoseNodelet : public NodeletOf<PoseNode> {};
-class IngressNavigatorNodelet : public NodeletOf<NavigatorNode> {};
+class WindowDetectorNodelet : public NodeletOf<makeWindowDetector> {};
+class HomographyPoseNodelet : public NodeletOf<makeHomographyPose> {};
+class IngressNavigatorNodelet : public NodeletOf<makeIngressNavigator> {};
 
 }  // namespace window_ingress::adapters
 

@@ -1,6 +1,5 @@
-#include "adapters/pose/camera_mounting.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::CameraMountingNode>(argc, argv,
-                                                                                         "camera_mounting");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "camera_mounting", makeCameraMounting); }

@@ -1,5 +1,5 @@
-#include "adapters/pose/pose_node.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::PoseNode>(argc, argv, "homography_pose");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "homography_pose", makeHomographyPose); }

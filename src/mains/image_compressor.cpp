@@ -1,6 +1,5 @@
-#include "adapters/images/image_compressor.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::ImageCompressorNode>(argc, argv,
-                                                                                          "image_compressor");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "image_compressor", makeImageCompressor); }

@@ -1,6 +1,5 @@
-#include "adapters/navigator/navigator_node.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::NavigatorNode>(argc, argv,
-                                                                                    "ingress_navigator");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "ingress_navigator", makeIngressNavigator); }

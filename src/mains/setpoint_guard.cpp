@@ -1,5 +1,5 @@
-#include "adapters/guard/guard_node.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::GuardNode>(argc, argv, "setpoint_guard");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "setpoint_guard", makeSetpointGuard); }

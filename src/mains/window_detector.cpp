@@ -1,6 +1,5 @@
-#include "adapters/images/detector_node.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::DetectorNode>(argc, argv,
-                                                                                   "window_detector");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "window_detector", makeWindowDetector); }

@@ -1,5 +1,5 @@
-#include "adapters/world/world_node.hpp"
+#include "adapters/nodes.hpp"
 
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::WorldNode>(argc, argv, "world");
-}
+using namespace window_ingress::adapters;
+
+int main(int argc, char** argv) { return runNode(argc, argv, "world", makeWorld); }

@@ -9,11 +9,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <set>
 
 #include "adapters/bags/bag_check.hpp"
-#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
 
 namespace window_ingress::adapters {
@@ -35,37 +33,33 @@ std::string listed(const std::map<std::string, std::string>& topics) {
   return text;
 }
 
-class Chooser {
- public:
-  explicit Chooser(const rosbag::Bag& bag) : bag_(bag), topics_(typesByTopic(bag)) {}
-
-  std::string choose(const std::string& option, const std::string& wanted, const Types& types,
-                     const std::string& needed = "") const {
-    if (!wanted.empty()) return named(option, wanted, types);
-    std::map<std::string, std::string> found;
-    for (const auto& [topic, type] : topics_)
-      if (types.count(type) > 0 && !isAside(topic)) found[topic] = type;
-    if (found.empty() && !needed.empty())
-      throw InputError(bag_.getFileName() + ": no " + needed + " in it: no topic of type " + *types.begin() +
-                       ", only " + listed(topics_));
-    if (found.size() > 1)
-      throw InputError(bag_.getFileName() + ": choose one with " + option + ": " + listed(found));
-    return found.empty() ? "" : found.begin()->first;
+std::string named(const rosbag::Bag& bag, const std::string& option, const std::string& wanted,
+                  const Types& types) {
+  const auto topics = typesByTopic(bag);
+  for (const std::string& topic :
+       {wanted, wanted + "/compressed", "/" + wanted, "/" + wanted + "/compressed"}) {
+    const auto found = topics.find(topic);
+    if (found != topics.end() && types.count(found->second) > 0) return topic;
   }
+  throw InputError(bag.getFileName() + ": " + option + " " + wanted + " is not in it as " + *types.begin() +
+                   "; it has " + listed(topics));
+}
 
- private:
-  std::string named(const std::string& option, const std::string& wanted, const Types& types) const {
-    for (const std::string& topic :
-         {wanted, wanted + "/compressed", "/" + wanted, "/" + wanted + "/compressed"}) {
-      const auto found = topics_.find(topic);
-      if (found != topics_.end() && types.count(found->second) > 0) return topic;
-    }
-    throw InputError(bag_.getFileName() + ": " + option + " " + wanted + " is not in it as " +
-                     *types.begin() + "; it has " + listed(topics_));
-  }
-  const rosbag::Bag& bag_;
-  std::map<std::string, std::string> topics_;
-};
+/// \param needed what the topic holds, if the bag must have it
+std::string choose(const rosbag::Bag& bag, const std::string& option, const std::string& wanted,
+                   const Types& types, const std::string& needed = "") {
+  if (!wanted.empty()) return named(bag, option, wanted, types);
+  const auto topics = typesByTopic(bag);
+  std::map<std::string, std::string> found;
+  for (const auto& [topic, type] : topics)
+    if (types.count(type) > 0 && !isAside(topic)) found[topic] = type;
+  if (found.empty() && !needed.empty())
+    throw InputError(bag.getFileName() + ": no " + needed + " in it: no topic of type " + *types.begin() +
+                     ", only " + listed(topics));
+  if (found.size() > 1)
+    throw InputError(bag.getFileName() + ": choose one with " + option + ": " + listed(found));
+  return found.empty() ? "" : found.begin()->first;
+}
 
 /// Calls `each` with every readable image until it returns false.
 void forEachImage(const rosbag::Bag& bag, const std::string& topic, int every,
@@ -96,11 +90,6 @@ geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topi
     reason = camera.reason;
   }
   throw InputError(bag.getFileName() + ": " + topic + ": " + reason);
-}
-
-// Images within one second look alike.
-std::string groupOf(const rosbag::Bag& bag, const ros::Time& stamp) {
-  return bag.getFileName() + "/" + std::to_string(stamp.sec);
 }
 
 template <typename Work>
@@ -137,15 +126,14 @@ std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag) {
 }
 
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted) {
-  const Chooser chooser(bag);
   BagTopics topics;
-  topics.image = chooser.choose("--image", wanted.image, kImages, "images");
+  topics.image = choose(bag, "--image", wanted.image, kImages, "images");
   topics.camera_info =
-      chooser.choose("--camera-info", wanted.camera_info, {"sensor_msgs/CameraInfo"}, "calibration");
-  topics.odom = chooser.choose("--odom", wanted.odom, {"nav_msgs/Odometry"});
-  topics.imu = chooser.choose("--imu", wanted.imu, {"sensor_msgs/Imu"});
+      choose(bag, "--camera-info", wanted.camera_info, {"sensor_msgs/CameraInfo"}, "calibration");
+  topics.odom = choose(bag, "--odom", wanted.odom, {"nav_msgs/Odometry"});
+  topics.imu = choose(bag, "--imu", wanted.imu, {"sensor_msgs/Imu"});
   if (!wanted.truth.empty())
-    topics.truth = chooser.choose("--truth", wanted.truth, {"geometry_msgs/PoseStamped"}, "truth");
+    topics.truth = choose(bag, "--truth", wanted.truth, {"geometry_msgs/PoseStamped"}, "truth");
   return topics;
 }
 
@@ -183,7 +171,8 @@ std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, co
       if (pose == truth.end() || image.cols != camera.width || image.rows != camera.height) return true;
       auto sample = evaluation::labelled(image.clone(), pose->second, camera, opening);
       if (!sample) return true;
-      sample->group = groupOf(bag, header.stamp);
+      sample->group =
+          bag.getFileName() + "/" + std::to_string(header.stamp.sec);  // images within one second look alike
       images.push_back(*sample);
       return true;
     });

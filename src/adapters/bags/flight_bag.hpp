@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/world/world_messages.hpp"
 #include "evaluation/flights/flight_observer.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -70,58 +71,57 @@ constexpr const char* kDetailColumns =
     "sign_trusted,filtered_weight,window_width_m,window_height_m,why_not_filtered\n";
 constexpr int kPoseDetails = 10, kFilterDetails = 5;
 
+// Each number after a comma.
+std::string csvNumbers(const char* pattern, std::initializer_list<double> numbers) {
+  std::string text;
+  for (const double number : numbers) text += "," + formatted(pattern, number);
+  return text;
+}
+
 std::string filteredValues(const std::optional<estimation::FilteredWindow>& filtered) {
   if (!filtered) return std::string(13, ',');
   const Eigen::Quaterniond q(filtered->T_odom_window.linear());
   const Eigen::Vector3d t = filtered->T_odom_window.translation();
-  std::string values;
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) values += "," + formatted("%.9f", value);
-  for (const double value : {t.x(), t.y(), t.z()}) values += "," + formatted("%.6f", value);
+  std::string values =
+      csvNumbers("%.9f", {q.x(), q.y(), q.z(), q.w()}) + csvNumbers("%.6f", {t.x(), t.y(), t.z()});
   for (int i = 0; i < 6; ++i)
-    values += "," + formatted("%.6f", std::sqrt(std::max(0.0, filtered->covariance(i, i))));
+    values += csvNumbers("%.6f", {std::sqrt(std::max(0.0, filtered->covariance(i, i)))});
   return values;
 }
 
 std::string truthValues(const evaluation::TruthErrors& errors) {
   std::string values = errors.whole ? ",1" : ",0";
-  for (const double value : {errors.iou, errors.true_distance_m, errors.true_yaw_rad})
-    values += "," + formatted("%.6f", value);
+  values += csvNumbers("%.6f", {errors.iou, errors.true_distance_m, errors.true_yaw_rad});
   for (const auto& value : {errors.yaw_rad, errors.distance_m})
-    values += value ? "," + formatted("%.6f", *value) : ",";
+    values += value ? csvNumbers("%.6f", {*value}) : ",";
   if (!errors.found || !errors.truth) return values + ",";
-  return values + "," + formatted("%.4f", geometry::furthestCorner(*errors.found, *errors.truth));
+  return values + csvNumbers("%.4f", {geometry::furthestCorner(*errors.found, *errors.truth)});
 }
 
 std::string opennessValues(const openness::OpennessVerdict& verdict) {
-  return "," + std::string(openness::toString(verdict.openness)) + "," + formatted("%.4f", verdict.log_odds) +
-         "," + (verdict.has_depth ? formatted("%.4f", verdict.depth_behind_m) : "");
+  return formatted(",%s,%.4f,", openness::toString(verdict.openness), verdict.log_odds) +
+         (verdict.has_depth ? formatted("%.4f", verdict.depth_behind_m) : "");
 }
 
 std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pose) {
   if (!pose) return std::string(kPoseDetails, ',');
-  std::string values = formatted(",%.6f,%.6f,%d", pose->yaw_rad, pose->sigma_u_rad, pose->sign_trusted);
-  for (const double value :
-       {pose->euler.roll_rad, pose->euler.pitch_rad, pose->euler.yaw_rad, pose->opening_width_m,
-        pose->opening_height_m, pose->left_side_px, pose->right_side_px})
-    values += "," + formatted("%.6f", value);
-  return values;
+  return formatted(",%.6f,%.6f,%d", pose->yaw_rad, pose->sigma_u_rad, pose->sign_trusted) +
+         csvNumbers("%.6f",
+                    {pose->euler.roll_rad, pose->euler.pitch_rad, pose->euler.yaw_rad, pose->opening_width_m,
+                     pose->opening_height_m, pose->left_side_px, pose->right_side_px});
 }
 
 std::string filterDetails(const std::optional<estimation::FilteredWindow>& filtered) {
   if (!filtered) return std::string(kFilterDetails, ',');
-  std::string values = formatted(",%.3f,%d", filtered->age_sec, filtered->sign_trusted);
-  for (const double value :
-       {filtered->hypothesis_weight, filtered->size.size.width_m, filtered->size.size.height_m})
-    values += "," + formatted("%.6f", value);
-  return values;
+  const geometry::OpeningSize& size = filtered->size.size;
+  return formatted(",%.3f,%d", filtered->age_sec, filtered->sign_trusted) +
+         csvNumbers("%.6f", {filtered->hypothesis_weight, size.width_m, size.height_m});
 }
 
 /// Leaves the column of the processing time empty, because that time is not part of the bag.
 std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
 
 constexpr int kWidestPx = 640, kQuality = 80;
-
-std::string named(std::size_t number) { return formatted("pictures/%05zu.jpg", number); }
 
 std::string captionOf(const ReplayedFrame& frame) {
   if (!frame.row.window) return "no window: " + frame.row.reject_reason;
@@ -223,7 +223,7 @@ void DetectionStrip::add(const ReplayedFrame& frame) {
   const double scale = std::min(1.0, static_cast<double>(kWidestPx) / canvas_.cols);
   cv::Mat small;
   cv::resize(canvas_, small, {}, scale, scale, cv::INTER_AREA);
-  const std::string file = named(seen_);
+  const std::string file = formatted("pictures/%05zu.jpg", seen_);
   evaluation::writeImage(folder_ / file, small, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   list_ << exactText(frame.stamp) << "," << file << "," << why << ","
         << evaluation::csvField(captionOf(frame)) << "\n";

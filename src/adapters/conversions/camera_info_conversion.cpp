@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
@@ -8,14 +7,14 @@ namespace {
 
 using FourNumbers = decltype(window_ingress::DetectedWindow::corner_x);
 
-void write(const geometry::Quadrilateral& corners, FourNumbers& x, FourNumbers& y) {
+void putCorners(const geometry::Quadrilateral& corners, FourNumbers& x, FourNumbers& y) {
   for (std::size_t i = 0; i < 4; ++i) {
     x[i] = corners[i].x();
     y[i] = corners[i].y();
   }
 }
 
-geometry::Quadrilateral read(const FourNumbers& x, const FourNumbers& y) {
+geometry::Quadrilateral takeCorners(const FourNumbers& x, const FourNumbers& y) {
   geometry::Quadrilateral corners;
   for (std::size_t i = 0; i < 4; ++i) corners[i] = {x[i], y[i]};
   return corners;
@@ -25,8 +24,8 @@ window_ingress::KnownWindow toMsg(const facade::KnownWindow& window, double now_
   window_ingress::KnownWindow message;
   message.id = window.id;
   message.pose = toPoseMsg(facade::poseOf(window.place));
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> covariance = window.place.covariance;
-  std::copy(covariance.data(), covariance.data() + 9, message.position_covariance.begin());
+  using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Map<RowMajor3d>(message.position_covariance.data()) = window.place.covariance;
   message.width = window.place.size.width_m;
   message.height = window.place.size.height_m;
   message.measured = window.place.on_wall;
@@ -47,7 +46,7 @@ window_ingress::KnownWindow toMsg(const facade::KnownWindow& window, double now_
 
 window_ingress::DetectedWindow toMsg(const detection::SeenWindow& window) {
   window_ingress::DetectedWindow message;
-  write(window.corners, message.corner_x, message.corner_y);
+  putCorners(window.corners, message.corner_x, message.corner_y);
   message.score = window.score;
   message.has_appearance = window.has_appearance;
   message.bhattacharyya = window.bhattacharyya;
@@ -60,7 +59,7 @@ std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowD
   std::vector<detection::SeenWindow> windows;
   for (const window_ingress::DetectedWindow& one : message.windows) {
     detection::SeenWindow window;
-    window.corners = read(one.corner_x, one.corner_y);
+    window.corners = takeCorners(one.corner_x, one.corner_y);
     const bool is_usable = geometry::isFinite(window.corners) && geometry::isConvex(window.corners) &&
                            std::isfinite(one.score) && std::isfinite(one.bhattacharyya);
     if (!is_usable || windows.size() == kMaxSeenWindows) continue;
@@ -82,12 +81,12 @@ window_ingress::RememberedTarget targetMsg(const facade::KnownWindow* target,
     message.position = toPoseMsg(facade::poseOf(target->place)).position;
   }
   message.has_expected = expected.has_value();
-  if (expected) write(*expected, message.expected_x, message.expected_y);
+  if (expected) putCorners(*expected, message.expected_x, message.expected_y);
   return message;
 }
 
 std::optional<geometry::Quadrilateral> expectedFrom(const window_ingress::RememberedTarget& message) {
-  const geometry::Quadrilateral expected = read(message.expected_x, message.expected_y);
+  const geometry::Quadrilateral expected = takeCorners(message.expected_x, message.expected_y);
   if (message.has_expected == 0 || !geometry::isFinite(expected)) return std::nullopt;
   return expected;
 }

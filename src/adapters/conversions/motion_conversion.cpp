@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
@@ -19,6 +18,15 @@ std::string frameFault(const char* field, const std::string& found, const std::s
   return std::string(field) + " is '" + found.substr(0, 60) + "', expected '" + wanted + "'";
 }
 
+Converted<Eigen::Isometry3d> poseFrom(const Eigen::Vector3d& position,
+                                      const geometry_msgs::Quaternion& orientation) {
+  if (!position.allFinite() || position.norm() > kFarthestM)
+    return {std::nullopt, "position is not finite or beyond 100 km"};
+  const auto rotation = adapters::fromMsg(orientation);
+  if (!rotation) return {std::nullopt, rotation.reason};
+  return {geometry::makePose(rotation.value->toRotationMatrix(), position), ""};
+}
+
 }  // namespace
 
 Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message) {
@@ -31,21 +39,11 @@ Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message) 
 }
 
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message) {
-  const Eigen::Vector3d position(message.position.x, message.position.y, message.position.z);
-  if (!position.allFinite() || position.norm() > kFarthestM)
-    return {std::nullopt, "position is not finite or beyond 100 km"};
-  const auto rotation = fromMsg(message.orientation);
-  if (!rotation) return {std::nullopt, rotation.reason};
-  return {geometry::makePose(rotation.value->toRotationMatrix(), position), ""};
+  return poseFrom(toEigen(message.position), message.orientation);
 }
 
 Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message) {
-  geometry_msgs::Pose pose;
-  pose.position.x = message.translation.x;
-  pose.position.y = message.translation.y;
-  pose.position.z = message.translation.z;
-  pose.orientation = message.rotation;
-  return fromMsg(pose);
+  return poseFrom(toEigen(message.translation), message.rotation);
 }
 
 geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose) { return tf2::toMsg(pose); }
@@ -54,8 +52,6 @@ geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
   return tf2::toMsg(vector, message);
 }
-
-Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
 std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id) {
   std_msgs::Header header;

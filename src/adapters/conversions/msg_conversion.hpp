@@ -16,6 +16,8 @@
 #include <window_ingress/WindowPose.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +47,20 @@ struct Converted {
   explicit operator bool() const { return value.has_value(); }
 };
 
+// --- time: stamps are compared as doubles, because the difference of two `ros::Time` throws beyond 2^31 s
+
+/// Seconds of a stamp; empty if it is zero (unstamped) or its nanoseconds are not below 1e9.
+inline std::optional<double> stampSec(const ros::Time& stamp) {
+  if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
+  return stamp.toSec();
+}
+
+/// The nearest stamp for a time in seconds; zero if no stamp can hold it.
+inline ros::Time toStamp(double sec) {
+  constexpr double kEnd = std::numeric_limits<std::uint32_t>::max();
+  return sec >= 0.0 && sec < kEnd ? ros::Time(sec) : ros::Time();
+}
+
 // --- geometry
 
 /// Normalises. Refuses quaternions that are not finite or differ by more than 1 % from unit length.
@@ -56,7 +72,11 @@ geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose);
 geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
                                         const estimation::Matrix6d& covariance);
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector);
-Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
+/// \param xyz a vector or a point
+template <typename Xyz>
+Eigen::Vector3d toEigen(const Xyz& xyz) {
+  return {xyz.x, xyz.y, xyz.z};
+}
 
 std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id);
 

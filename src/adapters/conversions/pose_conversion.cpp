@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/stamps.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using ChecksMsg = window_ingress::SystemChecks;
 using OpennessMsg = window_ingress::Openness;
 using StateMsg = window_ingress::IngressState;
@@ -61,8 +61,7 @@ geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
                                         const estimation::Matrix6d& covariance) {
   geometry_msgs::PoseWithCovariance message;
   message.pose = toPoseMsg(pose);
-  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = covariance;
-  std::copy(rows.data(), rows.data() + rows.size(), message.covariance.begin());
+  Eigen::Map<RowMajor6d>(message.covariance.data()) = covariance;
   return message;
 }
 
@@ -190,8 +189,7 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
   if (!stamp_sec) return {std::nullopt, "filtered.header.stamp is zero or not normalised"};
   const auto pose = fromMsg(filtered.pose.pose);
   if (!pose) return {std::nullopt, pose.reason};
-  const estimation::Matrix6d covariance =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(filtered.pose.covariance.data());
+  const estimation::Matrix6d covariance = Eigen::Map<const RowMajor6d>(filtered.pose.covariance.data());
   if (!covariance.allFinite()) return {std::nullopt, "covariance is not finite"};
   const geometry::OpeningSize opening{message.size.width, message.size.height};
   if (!(opening.width_m > 0.0 && opening.height_m > 0.0) || !std::isfinite(opening.width_m) ||
@@ -224,8 +222,7 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
 
 std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& message,
                                               const std::string& odom_frame) {
-  const geometry_msgs::Point& position = message.target.position;
-  const Eigen::Vector3d place(position.x, position.y, position.z);
+  const Eigen::Vector3d place = toEigen(message.target.position);
   if (message.target.window_id == 0 || message.filtered.header.frame_id != odom_frame || !place.allFinite())
     return std::nullopt;
   return place;

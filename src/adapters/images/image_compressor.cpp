@@ -3,6 +3,7 @@
 #include <ros/master.h>
 
 #include "adapters/images/image_files.hpp"
+#include "adapters/nodes.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 
@@ -32,27 +33,39 @@ Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPt
   return {message, ""};
 }
 
-ImageCompressorNode::ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(readParameters<ImageCompressorParams>(pnh)), diagnostics_(nh, pnh) {
-  const std::string topic = nh.resolveName("compressed");
-  if (isPublished(topic)) {
-    ROS_WARN("%s is already published: this node is not needed (record.launch compress:=false)",
-             topic.c_str());
-    return;
+/// Publishes images as JPEG, for recordings with a camera driver that does not compress: image_raw to
+/// compressed. If the topic already has a publisher, the node reports that and stays silent.
+class ImageCompressorNode : public Node {
+ public:
+  ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+      : params_(readParameters<ImageCompressorParams>(pnh)), diagnostics_(nh, pnh) {
+    const std::string topic = nh.resolveName("compressed");
+    if (isPublished(topic)) {
+      ROS_WARN("%s is already published: this node is not needed (record.launch compress:=false)",
+               topic.c_str());
+      return;
+    }
+    publisher_ = nh.advertise<sensor_msgs::CompressedImage>("compressed", 5);
+    subscriber_ = diagnostics_.subscribe(nh, "image_raw", 5, &ImageCompressorNode::receive, this);
   }
-  publisher_ = nh.advertise<sensor_msgs::CompressedImage>("compressed", 5);
-  subscriber_ = subscribeCatching<sensor_msgs::Image>(nh, "image_raw", 5, diagnostics_,
-                                                      [this](const auto& image) { receive(image); });
-}
 
-void ImageCompressorNode::receive(const sensor_msgs::ImageConstPtr& image) {
-  if (publisher_.getNumSubscribers() == 0) return;
-  const auto compressed = compress(image, params_);
-  if (!compressed) {
-    ROS_WARN_THROTTLE(10.0, "image not compressed: %s", compressed.reason.c_str());
-    return;
+ private:
+  void receive(const sensor_msgs::ImageConstPtr& image) {
+    if (publisher_.getNumSubscribers() == 0) return;
+    if (const auto compressed = compress(image, params_))
+      publisher_.publish(*compressed.value);
+    else
+      ROS_WARN_THROTTLE(10.0, "image not compressed: %s", compressed.reason.c_str());
   }
-  publisher_.publish(*compressed.value);
+
+  ImageCompressorParams params_;
+  Diagnostics diagnostics_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
+
+std::unique_ptr<Node> makeImageCompressor(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  return std::make_unique<ImageCompressorNode>(nh, pnh);
 }
 
 }  // namespace window_ingress::adapters

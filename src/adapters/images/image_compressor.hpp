@@ -1,13 +1,10 @@
 #pragma once
 
-#include <ros/node_handle.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/runtime/diagnostics.hpp"
-#include "adapters/runtime/run_node.hpp"
 
 namespace window_ingress::adapters {
 
@@ -24,20 +21,5 @@ struct ImageCompressorParams {
 /// The image as JPEG with the same header, or the reason why not.
 Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPtr& image,
                                                  const ImageCompressorParams& params);
-
-/// Publishes images as JPEG, for recordings with a camera driver that does not compress: image_raw to
-/// compressed. If the topic already has a publisher, the node reports that and stays silent.
-class ImageCompressorNode : public Node {
- public:
-  ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
-
- private:
-  void receive(const sensor_msgs::ImageConstPtr& image);
-
-  ImageCompressorParams params_;
-  Diagnostics diagnostics_;
-  ros::Publisher publisher_;
-  ros::Subscriber subscriber_;
-};
 
 }  // namespace window_ingress::adapters

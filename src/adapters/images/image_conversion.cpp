@@ -6,7 +6,6 @@
 #include <array>
 #include <boost/make_shared.hpp>
 #include <cstddef>
-#include <cstdint>
 #include <initializer_list>
 #include <opencv2/imgproc.hpp>
 
@@ -31,39 +30,29 @@ std::optional<CompressedSize> pngSize(const Bytes& bytes) {
   return CompressedSize{bigEndian(bytes, 16, 4), bigEndian(bytes, 20, 4)};
 }
 
+// Where the first segment "ff marker length .." of a JPEG begins whose marker is wanted, if there is one.
+template <typename Wanted>
+std::optional<std::size_t> findSegment(const Bytes& bytes, const Wanted& wanted) {
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
+    const std::uint8_t marker = bytes[at + 1];
+    if (wanted(marker)) return at;
+    at += marker == 0xff ? 1 : 2 + bigEndian(bytes, at + 2, 2);  // ff: a fill byte
+  }
+  return std::nullopt;
+}
+
 // Start of frame: C0 to CF, except the tables C4 (Huffman), C8 (reserved) and CC (arithmetic).
 bool isStartOfFrame(std::uint8_t marker) {
   return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-// JPEG: segments "ff marker length ..." until a start of frame: length, precision, height, width.
+// JPEG: a start of frame holds length, precision, height, width.
 std::optional<CompressedSize> jpegSize(const Bytes& bytes) {
   if (bytes.size() < 4 || bytes[0] != 0xff || bytes[1] != 0xd8) return std::nullopt;
-  std::size_t at = 2;
-  while (at + 9 <= bytes.size()) {
-    if (bytes[at] != 0xff) return std::nullopt;
-    const std::uint8_t marker = bytes[at + 1];
-    if (marker == 0xff) {  // a fill byte
-      ++at;
-      continue;
-    }
-    if (isStartOfFrame(marker))
-      return CompressedSize{bigEndian(bytes, at + 7, 2), bigEndian(bytes, at + 5, 2)};
-    at += 2 + bigEndian(bytes, at + 2, 2);
-  }
-  return std::nullopt;
-}
-
-// Where a JPEG's image data begin: behind its first start of scan; nothing if it has none. An embedded
-// preview lies before it, in a segment of its own.
-std::optional<std::size_t> startOfScan(const Bytes& bytes) {
-  std::size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
-    const std::uint8_t marker = bytes[at + 1];
-    if (marker == 0xda) return at;
-    at += marker == 0xff ? 1 : 2 + bigEndian(bytes, at + 2, 2);
-  }
-  return std::nullopt;
+  const auto frame = findSegment(bytes, isStartOfFrame);
+  if (!frame || *frame + 9 > bytes.size()) return std::nullopt;
+  return CompressedSize{bigEndian(bytes, *frame + 7, 2), bigEndian(bytes, *frame + 5, 2)};
 }
 
 bool holds(const Bytes& bytes, std::size_t from, std::initializer_list<std::uint8_t> mark) {
@@ -72,10 +61,11 @@ bool holds(const Bytes& bytes, std::size_t from, std::initializer_list<std::uint
 }
 
 // Whether a JPEG or PNG ends before its end mark: a decoder would fill the missing part with grey. Cameras
-// append padding or data of their own.
+// append padding or data of their own. A JPEG's end is sought behind its first start of scan (ff da), because
+// an embedded preview lies before it, in a segment of its own.
 bool isCutOff(const Bytes& bytes) {
   if (pngSize(bytes)) return !holds(bytes, 0, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
-  const auto scan = startOfScan(bytes);
+  const auto scan = findSegment(bytes, [](std::uint8_t marker) { return marker == 0xda; });
   return !scan || !holds(bytes, *scan, {0xff, 0xd9});
 }
 
@@ -162,11 +152,7 @@ std::string unusedRange(const sensor_msgs::Image& message, const Encoding& encod
              : "";
 }
 
-DecodedImage refusal(const std::string& reason) {
-  DecodedImage result;
-  result.reason = reason;
-  return result;
-}
+DecodedImage refused(const std::string& reason) { return {{}, nullptr, reason, "", 0.0}; }
 
 // Shares the message's bytes if no conversion is needed.
 cv::Mat converted(const sensor_msgs::Image& message, const Encoding& encoding) {
@@ -199,7 +185,7 @@ std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& lim
 
 DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits) {
   const std::string reason = whyRefused(*message, limits);
-  if (!reason.empty()) return refusal(reason);
+  if (!reason.empty()) return refused(reason);
   const Encoding& encoding = *find(message->encoding);
   try {
     DecodedImage result;
@@ -208,23 +194,23 @@ DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits
     result.warning = unusedRange(*message, encoding);
     return result;
   } catch (const std::exception& error) {
-    return refusal(std::string("cannot be converted: ") + error.what());
+    return refused(std::string("cannot be converted: ") + error.what());
   }
 }
 
 DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits) {
   const auto size = compressedSize(message.data);
-  if (!size) return refusal("compressed image is neither JPEG nor PNG, or its header is broken");
+  if (!size) return refused("compressed image is neither JPEG nor PNG, or its header is broken");
   const std::string large = tooLarge(size->width, size->height, limits);
-  if (!large.empty()) return refusal(large);
-  if (isCutOff(message.data)) return refusal("compressed image is cut off: it has no end mark");
+  if (!large.empty()) return refused(large);
+  if (isCutOff(message.data)) return refused("compressed image is cut off: it has no end mark");
   try {
     DecodedImage result;
     result.image = readImage(message.data);
-    if (result.image.empty()) return refusal("compressed image cannot be decoded: truncated or damaged");
+    if (result.image.empty()) return refused("compressed image cannot be decoded: truncated or damaged");
     return result;
   } catch (const std::exception& error) {
-    return refusal(std::string("compressed image cannot be decoded: ") + error.what());
+    return refused(std::string("compressed image cannot be decoded: ") + error.what());
   }
 }
 

@@ -13,8 +13,7 @@
 
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/images/stuck_camera.hpp"
-#include "adapters/inputs/stamp_gate.hpp"
-#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/inputs/topic_input.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -43,10 +42,9 @@ class ImageSource {
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
               const ImageLimits& limits, const StampLimits& stamps, Callback callback)
       : limits_(limits),
-        gate_(stamps),
         callback_(std::move(callback)),
         diagnostics_(diagnostics),
-        health_(diagnostics, "image", kSilenceSec),
+        input_(diagnostics, "image", stamps),
         transport_(nh) {
     if (transport == "compressed")
       subscribeCompressed(nh);
@@ -54,61 +52,52 @@ class ImageSource {
       subscribePlugin(transport);
   }
 
-  bool isConnected() const {
-    return plugin_subscriber_.getNumPublishers() + compressed_subscriber_.getNumPublishers() > 0;
-  }
+  bool isConnected() const { return input_.isConnected(); }
 
  private:
   void subscribeCompressed(ros::NodeHandle& nh) {
-    compressed_subscriber_ = subscribeCatching<sensor_msgs::CompressedImage>(
-        nh, nh.resolveName("image_raw") + "/compressed", 1, diagnostics_,
-        [this](const sensor_msgs::CompressedImageConstPtr& message) {
-          receive(message->header, [&] { return decode(*message, limits_); });
-        });
-    health_.watch(compressed_subscriber_);
+    input_.watch(diagnostics_.subscribe(nh, nh.resolveName("image_raw") + "/compressed", 1,
+                                        &ImageSource::receiveCompressed, this));
   }
 
   void subscribePlugin(const std::string& transport) {
     const boost::function<void(const sensor_msgs::ImageConstPtr&)> callback =
         [this](const sensor_msgs::ImageConstPtr& message) {
-          catchAll(diagnostics_, "image",
-                   [&] { receive(message->header, [&] { return decode(message, limits_); }); });
+          diagnostics_.handle("image",
+                              [&] { receive(message->header, [&] { return decode(message, limits_); }); });
         };
     try {
-      plugin_subscriber_ = transport_.subscribe(
-          "image_raw", 1, callback, ros::VoidPtr(),
-          image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay()));
+      const image_transport::TransportHints hints(transport, ros::TransportHints().tcpNoDelay());
+      input_.watch(transport_.subscribe("image_raw", 1, callback, ros::VoidPtr(), hints));
     } catch (const image_transport::Exception& error) {
       const std::string why = whyNoTransport(transport);
       throw InputError(why.empty() ? error.what() : why);
     }
-    health_.watch(plugin_subscriber_);
+  }
+
+  void receiveCompressed(const sensor_msgs::CompressedImageConstPtr& message) {
+    receive(message->header, [&] { return decode(*message, limits_); });
   }
 
   void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode) {
-    health_.arrived();
-    const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
-    if (late) return health_.refused(*late);
+    if (!input_.admits(header.stamp)) return;
     const double begun_sec = steadyNowSec();
     DecodedImage decoded = decode();
     decoded.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
-    if (!decoded.reason.empty()) return health_.refused(decoded.reason);
+    if (!decoded.reason.empty()) return input_.refused(decoded.reason);
     if (camera_.isStuck(decoded.image, steadyNowSec()))
       decoded.warning = "the image does not change any more: is the camera stuck?";
-    health_.accepted(decoded.warning);
-    health_.stamped(header.stamp.toSec());
+    input_.accepted(decoded.warning);
+    input_.stamped(header.stamp.toSec());
     callback_(header, decoded);
   }
 
   ImageLimits limits_;
-  StampGate gate_;
   StuckCamera camera_;
   Callback callback_;
   Diagnostics& diagnostics_;
-  TopicHealth health_;
+  TopicInput input_;
   image_transport::ImageTransport transport_;
-  image_transport::Subscriber plugin_subscriber_;
-  ros::Subscriber compressed_subscriber_;
 };
 
 }  // namespace window_ingress::adapters

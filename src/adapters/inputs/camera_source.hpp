@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
-#include <utility>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/inputs/topic_input.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -24,14 +22,10 @@ class CameraSource {
   /// Subscribes to `camera_info`.
   /// \param rectified images are rectified, see `cameraFromMsg`
   CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified)
-      : rectified_(rectified),
-        image_topic_(nh.resolveName("image_raw")),
-        health_(diagnostics, "camera_info", kSilenceSec) {
-    subscriber_ = subscribeCatching<sensor_msgs::CameraInfo>(
-        nh, "camera_info", 1, diagnostics, [this](const auto& message) { receive(*message); });
-    health_.watch(subscriber_);
+      : rectified_(rectified), image_topic_(nh.resolveName("image_raw")), input_(diagnostics, "camera_info") {
+    input_.subscribe(nh, 1, &CameraSource::receive, this);
     diagnostics.add("calibration", [this] { return fitHealth(); });
-    camera_.reason = "no camera_info on " + subscriber_.getTopic() + " so far";
+    camera_.reason = "no camera_info on " + input_.topic() + " so far";
   }
 
   /// The camera for an image of this size, or the reason why not. An empty `frame_id` matches every frame.
@@ -41,30 +35,25 @@ class CameraSource {
     return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
   }
 
-  void receive(const sensor_msgs::CameraInfo& message) {
-    health_.arrived();
-    camera_ = cameraFromMsg(message, rectified_);
-    frame_id_ = message.header.frame_id;
-    stamp_ = message.header.stamp;
-    if (camera_)
-      health_.accepted();
-    else
-      health_.refused(camera_.reason);
-    if (came_) came_();
-  }
-
-  /// For lockstep: stamp of the last message, and a function to call after each message.
-  ros::Time lastStamp() const { return stamp_; }
-  bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
-  void notify(std::function<void()> came) { came_ = std::move(came); }
+  const TopicInput& input() const { return input_; }
 
  private:
   static constexpr double kNearSec = 0.2;  // stamps of an image and its calibration may be one frame apart
-  static constexpr double kApartSec =
-      1.2;  // longest time without near stamps: camera_info may come once a second
+  // Longest time without near stamps: camera_info may come once a second.
+  static constexpr double kApartSec = 1.2;
+
+  void receive(const sensor_msgs::CameraInfoConstPtr& message) {
+    input_.admits(message->header.stamp);
+    camera_ = cameraFromMsg(*message, rectified_);
+    frame_id_ = message->header.frame_id;
+    if (camera_)
+      input_.accepted();
+    else
+      input_.refused(camera_.reason);
+  }
 
   std::string misfit(int width_px, int height_px, const std::string& frame_id) const {
-    const std::string topic = "camera_info on " + subscriber_.getTopic();
+    const std::string topic = "camera_info on " + input_.topic();
     if (camera_.value->width != width_px || camera_.value->height != height_px)
       return formatted("sizes differ: the image has %dx%d pixels, %s is for %dx%d", width_px, height_px,
                        topic.c_str(), camera_.value->width, camera_.value->height);
@@ -74,7 +63,7 @@ class CameraSource {
   }
 
   void compareStamps(const ros::Time& image) {
-    apart_sec_ = image.toSec() - stamp_.toSec();
+    apart_sec_ = image.toSec() - input_.lastStamp().toSec();
     if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
   }
 
@@ -82,8 +71,8 @@ class CameraSource {
     if (!camera_) return {Health::kOk, "none so far"};
     if (!misfit_.empty()) return {Health::kError, misfit_};
     const bool apart = std::abs(apart_sec_) > kNearSec && steadyNowSec() - together_sec_ > kApartSec;
-    const std::string topic = "camera_info on " + subscriber_.getTopic();
-    if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
+    const std::string topic = "camera_info on " + input_.topic();
+    if (apart && input_.lastStamp().isZero()) return {Health::kWarn, topic + " is not stamped"};
     if (apart)
       return {Health::kWarn,
               formatted("stamps of image and %s are %.2f s apart, the image is %s", topic.c_str(),
@@ -98,20 +87,16 @@ class CameraSource {
     const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
     if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
     return "images on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
-           subscriber_.getTopic() +
-           " is removed again; if they are rectified, set vehicle/image_is_rectified";
+           input_.topic() + " is removed again; if they are rectified, set vehicle/image_is_rectified";
   }
 
   bool rectified_;
   std::string image_topic_;
   Converted<geometry::PinholeCamera> camera_;
   std::string frame_id_;
-  ros::Time stamp_;
   std::string misfit_;
   double apart_sec_ = 0.0, together_sec_ = 0.0;  // difference of stamps; last time near, on the steady clock
-  std::function<void()> came_;
-  TopicHealth health_;
-  ros::Subscriber subscriber_;
+  TopicInput input_;
 };
 
 }  // namespace window_ingress::adapters

@@ -29,13 +29,6 @@ constexpr double kTextBelowM = 0.6;  // above are the texts of the windows
 constexpr std::size_t kTextWidth = 30;
 constexpr int kTurnParts = 10;
 
-Eigen::Isometry3d uprightPose(const navigation::TargetEstimate& target) {
-  Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
-  T_odom_window.linear() = navigation::uprightRotation(target);
-  T_odom_window.translation() = target.T_odom_window.translation();
-  return T_odom_window;
-}
-
 Points sectionCorners(const Eigen::Isometry3d& T_odom_window, const FunnelSection& section) {
   Points corners;
   for (Eigen::Vector3d corner :
@@ -163,10 +156,14 @@ visualization_msgs::MarkerArray flightMarkers(const navigation::NavigatorOutput&
   drawTurn(sketch, T_odom_base, output.setpoint);
   sketch.text("state", position - Eigen::Vector3d(0.0, 0.0, kTextBelowM),
               std::string(navigation::toString(output.state)) + "\n" + wrapped(output.reason, kTextWidth));
-  const bool knows_where = input.target && input.target->sign_trusted;
-  const auto sections =
-      knows_where ? funnelOf(*input.vehicle, *input.target, params) : std::vector<FunnelSection>();
-  drawFunnel(sketch, knows_where ? uprightPose(*input.target) : Eigen::Isometry3d::Identity(), sections);
+  Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
+  std::vector<FunnelSection> sections;
+  if (input.target && input.target->sign_trusted) {
+    T_odom_window = geometry::makePose(navigation::uprightRotation(*input.target),
+                                       input.target->T_odom_window.translation());
+    sections = funnelOf(*input.vehicle, *input.target, params);
+  }
+  drawFunnel(sketch, T_odom_window, sections);
   return sketch.markers();
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -16,18 +17,6 @@ using visualization_msgs::Marker;
 constexpr double kLineWidthM = 0.025, kTextHeightM = 0.14;
 constexpr double kShaftM = 0.035, kHeadM = 0.08, kHeadLengthM = 0.14;
 constexpr double kThinnestM = 1e-3;  // rviz refuses a scale of zero
-
-bool areFinite(const Points& points) {
-  return std::all_of(points.begin(), points.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); });
-}
-
-void put(Marker& marker, const Points& points) {
-  for (const Eigen::Vector3d& point : points) marker.points.push_back(tf2::toMsg(point));
-}
-
-geometry_msgs::Vector3 scaleOf(const Eigen::Vector3d& size_m) {
-  return toVectorMsg(size_m.cwiseMax(kThinnestM));
-}
 
 }  // namespace
 
@@ -55,60 +44,60 @@ Marker& MarkerSketch::add(const std::string& name, int type) {
   return marker;
 }
 
-bool MarkerSketch::draws(const std::string& name, const Points& points, std::size_t at_least) {
-  const bool drawable = points.size() >= at_least && areFinite(points);
-  if (!drawable) gone(name);
-  return drawable;
+Marker* MarkerSketch::shape(const std::string& name, int type, const Points& points, std::size_t at_least,
+                            const std_msgs::ColorRGBA& colour) {
+  const bool finite = std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+  if (!finite || points.size() < at_least) {
+    gone(name);
+    return nullptr;
+  }
+  Marker& marker = add(name, type);
+  for (const Eigen::Vector3d& point : points) marker.points.push_back(tf2::toMsg(point));
+  marker.color = colour;
+  return &marker;
 }
 
 void MarkerSketch::line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour) {
-  if (!draws(name, points, 2)) return;
-  Marker& marker = add(name, Marker::LINE_STRIP);
-  put(marker, points);
-  marker.color = colour;
+  shape(name, Marker::LINE_STRIP, points, 2, colour);
 }
 
 void MarkerSketch::line(const std::string& name, const Points& points,
                         std::vector<std_msgs::ColorRGBA> colours) {
-  if (!draws(name, points, 2) || colours.size() != points.size()) return;
-  line(name, points, colours.back());
-  markers_.markers.back().colors = std::move(colours);
+  if (Marker* marker = shape(name, Marker::LINE_STRIP, points, 2, colours.back()))
+    marker->colors = std::move(colours);
 }
 
 void MarkerSketch::strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour) {
-  if (!draws(name, ends, 2)) return;
-  Marker& marker = add(name, Marker::LINE_LIST);
-  put(marker, ends);
-  marker.color = colour;
+  shape(name, Marker::LINE_LIST, ends, 2, colour);
 }
 
 void MarkerSketch::surface(const std::string& name, const Points& corners,
                            const std_msgs::ColorRGBA& colour) {
-  if (!draws(name, corners, 3)) return;
-  Marker& marker = add(name, Marker::TRIANGLE_LIST);
-  put(marker, corners);
-  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-  marker.color = colour;
+  if (Marker* marker = shape(name, Marker::TRIANGLE_LIST, corners, 3, colour))
+    marker->scale = toVectorMsg(Eigen::Vector3d::Ones());
 }
 
 void MarkerSketch::arrow(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                          const std_msgs::ColorRGBA& colour) {
   constexpr double kShortestM = 0.02;
-  if (!draws(name, {from, to}, 2)) return;
-  if ((to - from).norm() < kShortestM) return gone(name);
-  Marker& marker = add(name, Marker::ARROW);
-  put(marker, {from, to});
-  marker.scale = toVectorMsg({kShaftM, kHeadM, std::min(kHeadLengthM, 0.5 * (to - from).norm())});
+  const double length_m = (to - from).norm();
+  if (length_m < kShortestM) return gone(name);
+  if (Marker* marker = shape(name, Marker::ARROW, {from, to}, 2, colour))
+    marker->scale = toVectorMsg({kShaftM, kHeadM, std::min(kHeadLengthM, 0.5 * length_m)});
+}
+
+void MarkerSketch::solid(const std::string& name, int type, const Eigen::Isometry3d& T_frame_solid,
+                         const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour) {
+  if (!T_frame_solid.matrix().allFinite() || !half_extents_m.allFinite()) return gone(name);
+  Marker& marker = add(name, type);
+  marker.pose = toPoseMsg(T_frame_solid);
+  marker.scale = toVectorMsg((2.0 * half_extents_m).cwiseMax(kThinnestM));
   marker.color = colour;
 }
 
 void MarkerSketch::box(const std::string& name, const Eigen::Isometry3d& T_frame_box,
                        const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour) {
-  if (!T_frame_box.matrix().allFinite() || !half_extents_m.allFinite()) return gone(name);
-  Marker& marker = add(name, Marker::CUBE);
-  marker.pose = toPoseMsg(T_frame_box);
-  marker.scale = scaleOf(2.0 * half_extents_m);
-  marker.color = colour;
+  solid(name, Marker::CUBE, T_frame_box, half_extents_m, colour);
 }
 
 void MarkerSketch::ellipsoid(const std::string& name, const Eigen::Vector3d& centre,
@@ -118,13 +107,8 @@ void MarkerSketch::ellipsoid(const std::string& name, const Eigen::Vector3d& cen
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   Eigen::Matrix3d axes = solver.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
-  Eigen::Isometry3d T_frame_ellipsoid = Eigen::Isometry3d::Identity();
-  T_frame_ellipsoid.linear() = axes;
-  T_frame_ellipsoid.translation() = centre;
-  Marker& marker = add(name, Marker::SPHERE);
-  marker.pose = toPoseMsg(T_frame_ellipsoid);
-  marker.scale = scaleOf(2.0 * sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt());
-  marker.color = colour;
+  solid(name, Marker::SPHERE, geometry::makePose(axes, centre),
+        sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), colour);
 }
 
 void MarkerSketch::text(const std::string& name, const Eigen::Vector3d& centre, const std::string& text) {

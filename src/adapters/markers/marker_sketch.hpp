@@ -33,7 +33,7 @@ class MarkerSketch {
   MarkerSketch(const ros::Time& stamp, const std::string& frame_id);
 
   void line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour);
-  /// \param colours one per point
+  /// \param colours one per point, at least one
   void line(const std::string& name, const Points& points, std::vector<std_msgs::ColorRGBA> colours);
   /// \param ends two points per stroke
   void strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour);
@@ -54,7 +54,11 @@ class MarkerSketch {
 
  private:
   visualization_msgs::Marker& add(const std::string& name, int type);
-  bool draws(const std::string& name, const Points& points, std::size_t at_least);
+  // Null and gone if the points are too few or not finite.
+  visualization_msgs::Marker* shape(const std::string& name, int type, const Points& points,
+                                    std::size_t at_least, const std_msgs::ColorRGBA& colour);
+  void solid(const std::string& name, int type, const Eigen::Isometry3d& T_frame_solid,
+             const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour);
 
   std_msgs::Header header_;
   visualization_msgs::MarkerArray markers_;

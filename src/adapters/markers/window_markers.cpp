@@ -99,12 +99,10 @@ bool isDrawn(const window_ingress::KnownWindow& window) {
 // The same object under two numbers, or a part of it: only the target or the better score is drawn.
 bool isPartOfAnother(const window_ingress::KnownWindow& window, const window_ingress::Facade& facade) {
   const auto hides = [&](const window_ingress::KnownWindow& other) {
-    const auto& a = window.pose.position;
-    const auto& b = other.pose.position;
     const double radius_m = 0.5 * std::max({window.width, window.height, other.width, other.height});
     const bool counts_more = other.id == facade.target_id || (isDrawn(other) && other.score > window.score);
     return other.id != window.id && counts_more &&
-           Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm() < radius_m;
+           (toEigen(window.pose.position) - toEigen(other.pose.position)).norm() < radius_m;
   };
   return !isFoundOut(window) && std::any_of(facade.windows.begin(), facade.windows.end(), hides);
 }

@@ -22,7 +22,7 @@ class GuardMonitor {
  public:
   GuardMonitor(ros::NodeHandle& nh, Diagnostics& diagnostics, const configuration::GuardMonitorParams& params)
       : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
-    subscriber_ = subscribeCatching<Setpoint>(nh_, kTopic, 1, diagnostics, [this](const auto&) { hear(); });
+    subscriber_ = diagnostics.subscribe(nh_, kTopic, 1, &GuardMonitor::hear, this);
     diagnostics.add(kTopic, [this] { return health(); });
   }
 
@@ -46,7 +46,7 @@ class GuardMonitor {
   using Setpoint = geometry_msgs::TwistStamped;
   static constexpr const char* kTopic = "passed_on";
 
-  void hear() {
+  void hear(const Setpoint::ConstPtr&) {
     heard_sec_ = steadyNowSec();
     if (brake_) brake_.shutdown();
     brake_ = ros::Publisher();

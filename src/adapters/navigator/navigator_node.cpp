@@ -1,10 +1,8 @@
 #include "adapters/navigator/navigator_node.hpp"
 
-#include <geometry_msgs/TwistStamped.h>
+#include <cmath>
 
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -15,6 +13,7 @@ namespace {
 constexpr const char* kBaseAxes = "base_link";
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
+constexpr double kFrozenClockSec = 0.2;
 constexpr double kRounding = 1e-6;
 constexpr std::size_t kMaxReason = 400;  // characters of texts from other nodes
 
@@ -40,10 +39,8 @@ NavigatorNodeParams readChecked(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
 NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readChecked(nh, pnh)),
       diagnostics_(nh, pnh),
-      odom_health_(diagnostics_, "odom", kSilenceSec),
-      pose_health_(diagnostics_, "window_pose", kSilenceSec),
-      odom_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
-      pose_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
+      odom_(diagnostics_, "odom", limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
+      pose_(diagnostics_, "window_pose", limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
       engagement_(params_.engagement),
       upstream_(nh, diagnostics_),
       guard_(nh, diagnostics_, params_.guard),
@@ -53,33 +50,28 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
   marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
   const int queue = queueFor(params_.lockstep, 1);
-  odom_subscriber_ = subscribeCatching<nav_msgs::Odometry>(
-      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
-  pose_subscriber_ = subscribeCatching<window_ingress::WindowPose>(
-      nh, "window_pose", queue, diagnostics_, [this](const auto& message) { receivePose(message); });
-  engaged_subscriber_ = subscribeCatching<std_msgs::Bool>(
-      nh, "engaged", 1, diagnostics_,
-      [this](const auto& message) { engagement_.hear(message->data, steadyNowSec()); });
+  odom_.subscribe(nh, queue, &NavigatorNode::receiveOdometry, this);
+  pose_.subscribe(nh, queue, &NavigatorNode::receivePose, this);
+  engaged_subscriber_ = diagnostics_.subscribe(nh, "engaged", 1, &NavigatorNode::receiveEngaged, this);
   reportHealth();
   advertiseServices(pnh);
-  if (params_.lockstep)
+  if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
         [this](const auto& step) { stepInStep(step); });
-  else
-    timer_ = createCatchingTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
-  if (!params_.lockstep)
+  } else {
+    timer_ = diagnostics_.createTimer(nh, 1.0 / params_.rate_hz, "step", [this] { step(); });
     action_.emplace(nh, diagnostics_,
                     MissionAction::Mission{[this] { return whyFlying(); },
                                            [this](const auto& policy) { return startMission(policy); },
                                            [this] { return abortMission("the goal was cancelled"); }});
+  }
 }
 
 bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
-  const bool connected =
-      odom_subscriber_.getNumPublishers() > 0 && setpoint_publisher_.getNumSubscribers() > 0;
+  const bool connected = odom_.isConnected() && setpoint_publisher_.getNumSubscribers() > 0;
   if (!step.has_image && !connected) return false;
-  return odom_came_ >= step.odom && pose_came_ >= step.image;
+  return odom_.lastStamp() >= step.odom && pose_.lastStamp() >= step.image;
 }
 
 void NavigatorNode::stepInStep(const Lockstep::Step& step) {
@@ -91,46 +83,28 @@ void NavigatorNode::stepInStep(const Lockstep::Step& step) {
   publish(last_, step.header.stamp);
 }
 
-double NavigatorNode::nowSec() const { return lockstep_ ? step_sec_ : ros::Time::now().toSec(); }
-
 void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
-  takeOdometry(message);
-  odom_came_ = message->header.stamp;
-  if (lockstep_) lockstep_->check();
-}
-
-void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
-  takePose(message);
-  pose_came_ = message->header.stamp;
-  if (lockstep_) lockstep_->check();
-}
-
-void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
-  odom_health_.arrived();
-  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
-  if (late) return odom_health_.refused(*late);
+  if (!odom_.admits(message->header.stamp)) return;
   auto vehicle = fromMsg(*message, frames());
-  if (!vehicle) return odom_health_.refused(vehicle.reason);
-  odom_health_.accepted();
-  odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!vehicle) return odom_.refused(vehicle.reason);
+  odom_.accepted();
+  odom_.stamped(vehicle.value->stamp_sec);
   if (!lockstep_)
     vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
   input_.vehicle = vehicle.value;
 }
 
-void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) {
-  pose_health_.arrived();
-  const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
-  if (late) return pose_health_.refused(*late);
+void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  if (!pose_.admits(message->header.stamp)) return;
   input_.image_stamp_sec = stampSec(message->header.stamp);
-  pose_health_.stamped(*input_.image_stamp_sec);
+  pose_.stamped(*input_.image_stamp_sec);
   input_.remembered_odom_m = rememberedFrom(*message, frames().odom);
   takeCamera(message->camera);
   if (action_) action_->hear(message->size);
-  if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window also counts
+  if (!message->filtered.valid) return pose_.accepted();  // an image without a window also counts
   const auto target = targetFromMsg(*message, frames().odom);
-  if (!target) return pose_health_.refused(target.reason);
-  pose_health_.accepted();
+  if (!target) return pose_.refused(target.reason);
+  pose_.accepted();
   input_.target = target.value;
 }
 
@@ -143,11 +117,15 @@ void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
   params_.navigator.vehicle.camera = *input_.camera;  // for the markers
 }
 
+void NavigatorNode::receiveEngaged(const std_msgs::BoolConstPtr& message) {
+  engagement_.hear(message->data, steadyNowSec());
+}
+
 void NavigatorNode::step() {
   const ros::Time now = ros::Time::now();
   restartIfClockJumpedBack(now.toSec());
   forgetSilentInputs();
-  const bool works = catchAll(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
+  const bool works = diagnostics_.catchAll("navigator", [&] { last_ = decide(now.toSec()); });
   if (isLeftToOthers()) {
     last_.enabled = was_enabled_ = false;
     last_.reason = "disabled (~enable)";
@@ -156,7 +134,7 @@ void NavigatorNode::step() {
     last_.setpoint = navigation::Setpoint();
     navigator_.sentZero();
   }
-  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany)
+  if (diagnostics_.failuresInARow("navigator") == FailureCount::kMany)
     navigator_.abort("aborted: the navigator's steps fail; see 'callbacks' in /diagnostics");
   publish(last_, now);
   if (last_.enabled) guard_.brakeIfNobodyDoes(now, frames().odom);
@@ -203,12 +181,11 @@ void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, co
 
 void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
   std::optional<Eigen::Matrix3d> R_odom_base;
-  const bool known = input_.vehicle.has_value();
   if (params_.setpoint_frame == kBaseAxes)
-    R_odom_base = known ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
-                                          input_.vehicle->T_odom_base.linear())
-                        : Eigen::Matrix3d::Identity();
-  const bool directionless = R_odom_base && !known;  // unknown attitude: stand still
+    R_odom_base = input_.vehicle ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
+                                                   input_.vehicle->T_odom_base.linear())
+                                 : Eigen::Matrix3d::Identity();
+  const bool directionless = R_odom_base && !input_.vehicle;  // unknown attitude: stand still
   geometry_msgs::TwistStamped message =
       toTwistMsg(directionless ? navigation::Setpoint() : setpoint, frames(), R_odom_base);
   message.header.stamp = now;
@@ -247,6 +224,71 @@ void NavigatorNode::stop() {
     publishSetpoint(navigation::Setpoint(), ros::Time::now());
     ros::WallDuration(0.05).sleep();
   }
+}
+
+void NavigatorNode::reportHealth() {
+  diagnostics_.add("engaged", [this] { return engagementHealth(); });
+  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
+  diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
+  diagnostics_.add("camera", [this] { return cameraHealth(); });
+  diagnostics_.add("last_gate", [this] {
+    const std::string& fault = last_gate_.fault();
+    return fault.empty() ? Health{}
+                         : Health{Health::kError, "an invalid setpoint is replaced by zero: " + fault};
+  });
+}
+
+// Drops inputs that no longer arrive, whatever their stamps: the ROS clock may stand still.
+void NavigatorNode::forgetSilentInputs() {
+  if (odom_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
+  if (pose_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
+  input_.engaged = engagement_.holds(steadyNowSec());
+  input_.passed_on = guard_.passesOn();
+}
+
+bool NavigatorNode::clockStandsStill(double now_sec) {
+  const double steady_sec = steadyNowSec();
+  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
+  last_now_sec_ = now_sec;
+  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
+}
+
+Health NavigatorNode::engagementHealth() const {
+  return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
+}
+
+Health NavigatorNode::missionHealth() const {
+  const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
+  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
+  return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+Health NavigatorNode::vehicleHealth() const {
+  const navigation::MeasuredVehicle& vehicle = last_.report.vehicle;
+  std::string said = formatted("response time %.2f s, %s", vehicle.response_sec,
+                               vehicle.is_measured ? "measured in flight" : "assumed");
+  if (std::isfinite(vehicle.acceleration_mps2))
+    said += formatted("; acceleration up to %.1f m/s^2", vehicle.acceleration_mps2);
+  if (const double bias_mps = vehicle.velocity_bias_base_mps.norm(); bias_mps > 0.0)
+    said += formatted("; velocity bias of odometry %.2f m/s, subtracted", bias_mps);
+  return {Health::kOk, said};
+}
+
+Health NavigatorNode::cameraHealth() const {
+  if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
+  const navigation::CameraInBody& camera = params_.navigator.vehicle.camera;
+  return {Health::kOk,
+          formatted("%.2f m ahead, field of view %.2f x %.2f rad, %.2g rad per pixel, from %s",
+                    camera.forward_m, camera.horizontal_fov_rad, camera.vertical_fov_rad, camera.pixel_rad,
+                    input_.camera ? "camera_info and tf" : "the parameters vehicle/...")};
+}
+
+std::unique_ptr<Node> makeIngressNavigator(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  return std::make_unique<NavigatorNode>(nh, pnh);
 }
 
 }  // namespace window_ingress::adapters

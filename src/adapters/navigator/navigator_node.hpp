@@ -1,33 +1,19 @@
 #pragma once
 
 #include <nav_msgs/Odometry.h>
-#include <ros/node_handle.h>
 #include <std_msgs/Bool.h>
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
-#include <window_ingress/CameraInBody.h>
-#include <window_ingress/IngressState.h>
 #include <window_ingress/WindowPose.h>
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/guard/setpoint_gate.hpp"
-#include "adapters/inputs/clock_watch.hpp"
-#include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/inputs/topic_input.hpp"
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/navigator/engagement_monitor.hpp"
 #include "adapters/navigator/guard_monitor.hpp"
 #include "adapters/navigator/mission_action.hpp"
 #include "adapters/navigator/upstream_faults.hpp"
-#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/nodes.hpp"
 #include "adapters/runtime/lockstep.hpp"
-#include "adapters/runtime/run_node.hpp"
-#include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
-#include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::adapters {
 
@@ -43,17 +29,13 @@ class NavigatorNode : public Node {
   void stop() override;
 
  private:
-  using Trigger = std_srvs::Trigger;
-
   void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
   void receivePose(const window_ingress::WindowPoseConstPtr& message);
-  void takeOdometry(const nav_msgs::OdometryConstPtr& message);
-  void takePose(const window_ingress::WindowPoseConstPtr& message);
   void takeCamera(const window_ingress::CameraInBody& message);
+  void receiveEngaged(const std_msgs::BoolConstPtr& message);
   void step();
   bool isComplete(const Lockstep::Step& step) const;
   void stepInStep(const Lockstep::Step& step);
-  double nowSec() const;
   void forgetSilentInputs();
   void restartIfClockJumpedBack(double now_sec);
   bool clockStandsStill(double now_sec);
@@ -64,24 +46,22 @@ class NavigatorNode : public Node {
   std::string whyFlying() const;
   bool isLeftToOthers() const;
   Reply reset();
-  bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
-  template <typename Response>
-  bool answer(const char* service, const Reply& reply, Response& response);
+  Reply enable(bool wanted);
+  Reply said(const std::string& service, const Reply& reply);
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
   void reportHealth();
+  Health engagementHealth() const;
   Health missionHealth() const;
   Health vehicleHealth() const;
   Health cameraHealth() const;
-  Health lastGateHealth() const;
   const FrameNames& frames() const { return params_.navigator.vehicle.frames; }
 
   NavigatorNodeParams params_;
   Diagnostics diagnostics_;
-  TopicHealth odom_health_, pose_health_;
-  StampGate odom_gate_, pose_gate_;
+  TopicInput odom_, pose_;
   estimation::SenderClock odom_clock_;
   EngagementMonitor engagement_;
   UpstreamFaults upstream_;
@@ -98,10 +78,9 @@ class NavigatorNode : public Node {
   SetpointGate last_gate_;  // checked without delay, so no input is late
   std::string refused_;     // the last refusal
   std::optional<Lockstep> lockstep_;
-  ros::Time odom_came_, pose_came_;  // stamps of the last messages, used or not
-  double step_sec_ = 0.0;            // in lockstep: the world's time
+  double step_sec_ = 0.0;  // in lockstep: the world's time
 
-  ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
+  ros::Subscriber engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
   std::vector<ros::ServiceServer> services_;
   std::optional<MissionAction> action_;  // not in lockstep, which has no client

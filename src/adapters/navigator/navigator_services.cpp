@@ -1,24 +1,36 @@
 /// Requests to the navigator's node: services, and the action's goal and cancel.
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
 #include "adapters/navigator/navigator_node.hpp"
+#include "adapters/runtime/services.hpp"
 
 namespace window_ingress::adapters {
 
 using navigation::State;
 
 void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
-  const auto advertise = [this, &pnh](const char* name, std::function<Reply()> act) {
-    services_.push_back(pnh.advertiseService<Trigger::Request, Trigger::Response>(
-        name, [=](Trigger::Request&, Trigger::Response& response) { return answer(name, act(), response); }));
+  const auto add = [&](const std::string& name, const std::function<Reply()>& act) {
+    services_.push_back(advertise<std_srvs::Trigger>(pnh, name, [=](auto&) { return said(name, act()); }));
   };
-  advertise("start", [this] { return startMission({}); });
-  advertise("abort", [this] { return abortMission("aborted by the operator"); });
-  advertise("reset", [this] { return reset(); });
-  advertise("confirm_opening", [this] { return navigator_.confirmOpening(); });
-  services_.push_back(pnh.advertiseService("enable", &NavigatorNode::enable, this));
+  add("start", [this] { return startMission({}); });
+  add("abort", [this] { return abortMission("aborted by the operator"); });
+  add("reset", [this] { return reset(); });
+  add("confirm_opening", [this] { return navigator_.confirmOpening(); });
+  services_.push_back(advertise<std_srvs::SetBool>(
+      pnh, "enable", [this](const auto& request) { return said("enable", enable(request.data)); }));
+}
+
+// Prints the answer of a service; a repeated refusal once.
+Reply NavigatorNode::said(const std::string& service, const Reply& reply) {
+  const std::string line = service + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
+  if (reply.success || line != refused_) ROS_INFO("%s", line.c_str());
+  refused_ = reply.success ? "" : line;
+  return reply;
 }
 
 Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
-  const double now_sec = nowSec();
+  const double now_sec = lockstep_ ? step_sec_ : ros::Time::now().toSec();
   if (is_disabled_) return {false, "not started: disabled (~enable)"};
   if (!lockstep_) forgetSilentInputs();
   if (!lockstep_ && clockStandsStill(now_sec)) return {false, "the clock stands still: nothing on /clock"};
@@ -26,11 +38,10 @@ Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
     return {false, "start_at_once: the mission starts by itself as soon as it can"};
   Reply reply = navigator_.start(input_, now_sec, policy);
   if (reply.success) return reply;
-  for (const Health& health : {odom_health_.health(), pose_health_.health(),
-                               engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec())})
+  for (const Health& health : {odom_.health(), pose_.health(), engagementHealth()})
     if (health.level == Health::kError) reply.message += "; " + health.text;
   for (const std::string& fault : upstream_.texts()) reply.message += "; " + fault;
-  if (pose_health_.health().level == Health::kError)
+  if (pose_.health().level == Health::kError)
     for (const std::string& fault : upstream_.silentNodes()) reply.message += "; " + fault;
   return reply;
 }
@@ -53,32 +64,18 @@ bool NavigatorNode::isLeftToOthers() const {
 }
 
 // Disabling in flight first aborts the mission: zeros continue as after ~abort.
-bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  is_disabled_ = !request.data;
-  if (!is_disabled_)
-    return answer("enable", {true, "enabled: zeros in IDLE, ~start may be called"}, response);
+Reply NavigatorNode::enable(bool wanted) {
+  is_disabled_ = !wanted;
+  if (wanted) return {true, "enabled: zeros in IDLE, ~start may be called"};
   const bool flies = !whyFlying().empty();
   if (flies) abortMission("aborted: disabled (~enable)");
-  return answer("enable",
-                {true, std::string(flies ? "aborted, " : "") + "disabled: sends nothing, starts nothing"},
-                response);
+  return {true, std::string(flies ? "aborted, " : "") + "disabled: sends nothing, starts nothing"};
 }
 
 // Publishes the mission's end before it is forgotten, however soon the reset comes.
 Reply NavigatorNode::reset() {
   if (!lockstep_ && navigation::isEnd(navigator_.state())) step();
   return navigator_.reset();
-}
-
-template <typename Response>
-bool NavigatorNode::answer(const char* service, const Reply& reply, Response& response) {
-  const std::string said =
-      std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
-  if (reply.success || said != refused_) ROS_INFO("%s", said.c_str());  // a repeated request is logged once
-  refused_ = reply.success ? "" : said;
-  response.success = reply.success;
-  response.message = reply.message;
-  return true;
 }
 
 }  // namespace window_ingress::adapters

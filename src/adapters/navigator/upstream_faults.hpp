@@ -17,8 +17,7 @@ namespace window_ingress::adapters {
 class UpstreamFaults {
  public:
   UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
-    subscriber_ = subscribeCatching<diagnostic_msgs::DiagnosticArray>(
-        nh, "/diagnostics", 20, diagnostics, [this](const auto& message) { hear(*message); });
+    subscriber_ = diagnostics.subscribe(nh, "/diagnostics", 20, &UpstreamFaults::hear, this);
   }
 
   /// One text for each input that is missing now.
@@ -51,10 +50,10 @@ class UpstreamFaults {
     double heard_sec;  ///< on the steady clock
     std::string text;
   };
-  void hear(const diagnostic_msgs::DiagnosticArray& message) {
+  void hear(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
     const std::string& space = ros::this_node::getNamespace();
     const std::string own = space.size() > 1 ? space.substr(1) + "/" : "";
-    for (const auto& status : message.status) {
+    for (const auto& status : message->status) {
       for (auto& [node, heard_sec] : heard_sec_)
         if (status.name.rfind(own + node + ": ", 0) == 0) heard_sec = steadyNowSec();
       for (const char* input : kInputs)

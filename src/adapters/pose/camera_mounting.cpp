@@ -3,6 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/nodes.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -38,15 +39,25 @@ Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose) {
                             Eigen::Vector3d(pose[0], pose[1], pose[2]));
 }
 
-CameraMountingNode::CameraMountingNode(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
-  const auto params = readParameters<CameraMountingParams>(pnh);
-  FrameNames frames;
-  frames.base = params.base_frame;
-  tf2_msgs::TFMessage message;
-  message.transforms =
-      mountingOf(T_base_cameraOf(params.pose), ros::Time::now(), frames, params.camera_frame);
-  publisher_ = nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-  publisher_.publish(message);
+/// Publishes the camera's mounting on tf_static: base, camera_link (forward, left, up) and the optical frame.
+class CameraMountingNode : public Node {
+ public:
+  CameraMountingNode(ros::NodeHandle& nh, const CameraMountingParams& params) {
+    FrameNames frames;
+    frames.base = params.base_frame;
+    tf2_msgs::TFMessage message;
+    message.transforms =
+        mountingOf(T_base_cameraOf(params.pose), ros::Time::now(), frames, params.camera_frame);
+    publisher_ = nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    publisher_.publish(message);
+  }
+
+ private:
+  ros::Publisher publisher_;
+};
+
+std::unique_ptr<Node> makeCameraMounting(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  return std::make_unique<CameraMountingNode>(nh, readParameters<CameraMountingParams>(pnh));
 }
 
 }  // namespace window_ingress::adapters

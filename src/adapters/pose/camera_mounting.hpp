@@ -1,12 +1,8 @@
 #pragma once
 
-#include <ros/node_handle.h>
-
 #include <Eigen/Geometry>
 #include <string>
 #include <vector>
-
-#include "adapters/runtime/run_node.hpp"
 
 namespace window_ingress::adapters {
 
@@ -28,14 +24,5 @@ struct CameraMountingParams {
 /// ahead, a positive pitch looks down, a positive yaw to the left. \throws InputError unless these are six
 /// plausible numbers for a small vehicle (not degrees or millimetres)
 Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose);
-
-/// Publishes the camera's mounting on tf_static: base, camera_link (forward, left, up) and the optical frame.
-class CameraMountingNode : public Node {
- public:
-  CameraMountingNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
-
- private:
-  ros::Publisher publisher_;
-};
 
 }  // namespace window_ingress::adapters

@@ -8,13 +8,13 @@
 #include <window_ingress/IngressState.h>
 #include <window_ingress/SelectWindow.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
-#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/markers/window_markers.hpp"
-#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/services.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::adapters {
@@ -30,13 +30,11 @@ class WindowSelection {
                   const std::string& odom_frame)
       : estimator_(estimator), tf_(tf), odom_frame_(odom_frame) {
     publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
-    click_ = subscribeCatching<geometry_msgs::PointStamped>(
-        nh, "clicked_point", 1, diagnostics, [this](const auto& message) { receiveClick(*message); });
-    choice_ = subscribeCatching<std_msgs::UInt32>(nh, "chosen_window", 1, diagnostics,
-                                                  [this](const auto& message) { receiveChoice(*message); });
-    state_ = subscribeCatching<window_ingress::IngressState>(
-        nh, "state", 1, diagnostics, [this](const auto& message) { receiveState(*message); });
-    select_ = pnh.advertiseService("select_window", &WindowSelection::select, this);
+    click_ = diagnostics.subscribe(nh, "clicked_point", 1, &WindowSelection::receiveClick, this);
+    choice_ = diagnostics.subscribe(nh, "chosen_window", 1, &WindowSelection::receiveChoice, this);
+    state_ = diagnostics.subscribe(nh, "state", 1, &WindowSelection::receiveState, this);
+    select_ = advertise<window_ingress::SelectWindow>(
+        pnh, "select_window", [this](const auto& request) { return estimator_.selectWindow(request.id); });
     diagnostics.add("windows", [this] { return health(); });
   }
 
@@ -67,25 +65,18 @@ class WindowSelection {
     return message;
   }
 
-  bool select(window_ingress::SelectWindow::Request& request,
-              window_ingress::SelectWindow::Response& response) {
-    const Reply reply = estimator_.selectWindow(request.id);
-    response.success = reply.success;
-    response.message = reply.message;
-    return true;
-  }
-
-  void receiveChoice(const std_msgs::UInt32& message) {
-    const Reply reply = estimator_.selectWindow(message.data);
+  void receiveChoice(const std_msgs::UInt32ConstPtr& message) {
+    const Reply reply = estimator_.selectWindow(message->data);
     ROS_INFO("chosen by a goal: %s", reply.message.c_str());
     if (reply.success) published_sec_ = -1.0;  // publishes the choice with the next image
   }
 
-  void receiveClick(const geometry_msgs::PointStamped& message) {
-    const Eigen::Vector3d point(message.point.x, message.point.y, message.point.z);
-    const auto T_odom_frame = message.header.frame_id == odom_frame_
+  void receiveClick(const geometry_msgs::PointStampedConstPtr& message) {
+    const Eigen::Vector3d point = toEigen(message->point);
+    const std::string& frame = message->header.frame_id;
+    const auto T_odom_frame = frame == odom_frame_
                                   ? Converted<Eigen::Isometry3d>{Eigen::Isometry3d::Identity(), ""}
-                                  : mountingOf(tf_, odom_frame_, message.header.frame_id);
+                                  : mountingOf(tf_, odom_frame_, frame);
     if (!T_odom_frame)
       last_click_ = T_odom_frame.reason;
     else if (!point.allFinite())
@@ -95,17 +86,18 @@ class WindowSelection {
     ROS_INFO("clicked: %s", last_click_.c_str());
   }
 
-  void receiveState(const window_ingress::IngressState& message) {
-    estimator_.addNavigatorState(message.window_id, message.given_up, message.next_window != 0);
+  void receiveState(const window_ingress::IngressStateConstPtr& message) {
+    estimator_.addNavigatorState(message->window_id, message->given_up, message->next_window != 0);
   }
 
   Health health() const {
-    std::size_t shown = 0;
-    for (const auto& window : estimator_.facade().windows()) shown += window.isConfirmed() ? 1 : 0;
-    const std::uint32_t target = estimator_.facade().targetId();
+    const facade::FacadeMemory& facade = estimator_.facade();
+    const auto shown = std::count_if(facade.windows().begin(), facade.windows().end(),
+                                     [](const auto& window) { return window.isConfirmed(); });
+    const std::uint32_t target = facade.targetId();
     std::string text = std::to_string(shown) +
                        " known, target: " + (target == 0 ? "none yet" : "window " + std::to_string(target));
-    if (estimator_.facade().isChosen()) text += " (chosen)";
+    if (facade.isChosen()) text += " (chosen)";
     if (!last_click_.empty()) text += "; last click: " + last_click_;
     return {Health::kOk, text};
   }

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
-#include <utility>
 
 #include "adapters/runtime/console_output.hpp"
 #include "window_ingress/text/text.hpp"
@@ -26,9 +24,6 @@ Health consoleHealth() {
           "the terminal or log of this node is blocked (Ctrl-S? disk full?): lines are lost there, but not "
           "in /rosout"};
 }
-
-constexpr double kQuietSec = 5.0;   // pause between two warnings about one topic
-constexpr double kSmoothing = 0.1;  // of the measured message period
 
 }  // namespace
 
@@ -60,8 +55,6 @@ Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
                                                    }
                                                  });
 }
-
-double Diagnostics::runningSec() const { return steadyNowSec() - started_sec_; }
 
 void Diagnostics::add(const std::string& name, std::function<Health()> check) {
   items_[name].check = std::move(check);
@@ -134,8 +127,31 @@ Health FailureCount::health() const {
           std::to_string(all_) + " callbacks failed; the last one was " + last_};
 }
 
-void Diagnostics::caught(const std::string& callback, const std::string& what) {
-  if (failures_.failed(callback, what)) ROS_ERROR("callback failed: %s: %s", callback.c_str(), what.c_str());
+bool Diagnostics::catchAll(const std::string& name, const std::function<void()>& work) {
+  std::string what = "an exception of unknown type";
+  try {
+    work();
+    failures_.succeeded(name);
+    return true;
+  } catch (const std::exception& error) {
+    what = error.what();
+  } catch (...) {
+  }
+  if (failures_.failed(name, what)) ROS_ERROR("callback failed: %s: %s", name.c_str(), what.c_str());
+  return false;
+}
+
+void Diagnostics::handle(const std::string& topic, const std::function<void()>& work) {
+  catchAll(topic, [&] {
+    work();
+    if (after_message_) after_message_();
+  });
+}
+
+ros::SteadyTimer Diagnostics::createTimer(ros::NodeHandle& nh, double period_sec, const std::string& name,
+                                          std::function<void()> work) {
+  return nh.createSteadyTimer(ros::WallDuration(period_sec),
+                              [=](const ros::SteadyTimerEvent&) { catchAll(name, work); });
 }
 
 Health Diagnostics::clockHealth() {
@@ -154,69 +170,6 @@ Health Diagnostics::clockHealth() {
   if (steady_sec - clock_moved_sec_ > kUnhealthyClockSec)
     return {Health::kWarn, formatted("/clock stands still since %.2f s", steady_sec - clock_moved_sec_)};
   return {};
-}
-
-TopicHealth::TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec)
-    : name_(name), silence_sec_(silence_sec), started_sec_(steadyNowSec()) {
-  diagnostics.add(name, [this] { return health(); });
-}
-
-void TopicHealth::arrived() {
-  const double now_sec = steadyNowSec(), since_sec = now_sec - arrived_sec_;
-  if (arrived_sec_ >= 0.0)
-    period_sec_ = period_sec_ > 0.0 ? period_sec_ + kSmoothing * (since_sec - period_sec_) : since_sec;
-  arrived_sec_ = now_sec;
-  ++messages_;
-}
-
-void TopicHealth::accepted(const std::string& warning) {
-  accepted_sec_ = steadyNowSec();
-  warning_ = warning;
-}
-
-void TopicHealth::stamped(double stamp_sec) { age_sec_ = ros::Time::now().toSec() - stamp_sec; }
-
-void TopicHealth::refused(const std::string& why) {
-  ++refusals_;
-  refusal_ = why;
-  const double now_sec = steadyNowSec();
-  if (said_sec_ > 0.0 && now_sec - said_sec_ < kQuietSec) return;
-  said_sec_ = now_sec;
-  ROS_WARN("%s refused: %s", name_.c_str(), why.c_str());
-}
-
-double TopicHealth::silentSec() const {
-  return accepted_sec_ < 0.0 ? std::numeric_limits<double>::infinity() : steadyNowSec() - accepted_sec_;
-}
-
-Health TopicHealth::health() const {
-  Health health = verdict();
-  const bool silent = arrived_sec_ < 0.0 || steadyNowSec() - arrived_sec_ > silence_sec_;
-  health.values = {{"publishers", publishers_ ? publishers_() : 0},
-                   {"messages", messages_},
-                   {"refused", refusals_},
-                   {"rate_hz", silent || period_sec_ <= 0.0 ? 0.0 : 1.0 / period_sec_},
-                   {"age_s", age_sec_}};
-  return health;
-}
-
-Health TopicHealth::verdict() const {
-  const double now_sec = steadyNowSec();
-  const std::string topic = topic_ ? topic_() : name_;
-  const int publishers = publishers_ ? publishers_() : 0;
-  const std::string from =
-      topic + " (" + std::to_string(publishers) + (publishers == 1 ? " publisher)" : " publishers)");
-  if (now_sec - (arrived_sec_ < 0.0 ? started_sec_ : arrived_sec_) > silence_sec_) {
-    const char* const hint = publishers == 0 ? "; check the remapping and the message type"
-                                             : "; it is advertised, but nothing is sent";
-    return {Health::kError, (arrived_sec_ < 0.0 ? "no " : "no more ") + name_ + " on " + from + hint};
-  }
-  if (arrived_sec_ >= 0.0 && now_sec - (accepted_sec_ < 0.0 ? started_sec_ : accepted_sec_) > silence_sec_)
-    return {Health::kError, from + " refused, " + std::to_string(refusals_) + " so far: " + refusal_};
-  if (!warning_.empty()) return {Health::kWarn, from + ": " + warning_};
-  if (publishers > 1) return {Health::kWarn, "more than one source on " + from};
-  if (refusals_ > 0) return {Health::kOk, "ok; " + std::to_string(refusals_) + " refused, last: " + refusal_};
-  return {Health::kOk, std::to_string(messages_) + " messages on " + from};
 }
 
 }  // namespace window_ingress::adapters

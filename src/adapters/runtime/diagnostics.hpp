@@ -5,7 +5,6 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
-#include <exception>
 #include <functional>
 #include <map>
 #include <string>
@@ -60,11 +59,30 @@ class Diagnostics {
   /// Warns while none of these outputs has a subscriber; names the first.
   void addOutput(const std::string& name, const std::vector<ros::Publisher>& outputs);
 
-  double runningSec() const;  ///< since the start, on the steady clock
+  /// Calls `work`. An exception is counted and reported under `name`. No exception may leave a callback,
+  /// because it would end the process while the vehicle flies.
+  /// \return false after an exception
+  bool catchAll(const std::string& name, const std::function<void()>& work);
+  /// Consecutive exceptions of `catchAll` under this name.
+  int failuresInARow(const std::string& name) const { return failures_.inARow(name); }
 
-  void succeeded(const std::string& callback) { failures_.succeeded(callback); }
-  void caught(const std::string& callback, const std::string& what);  ///< counts and prints the failure
-  const FailureCount& failures() const { return failures_; }
+  /// Work after each message, in the same `catchAll` as its callback.
+  void afterEachMessage(std::function<void()> work) { after_message_ = std::move(work); }
+  /// Handles a message of a topic by `work`, in `catchAll`.
+  void handle(const std::string& topic, const std::function<void()>& work);
+  /// Subscribes `(owner->*receive)(message)`; messages pass through `handle`.
+  template <typename Message, typename Owner>
+  ros::Subscriber subscribe(ros::NodeHandle& nh, const std::string& topic, int queue,
+                            void (Owner::*receive)(const boost::shared_ptr<const Message>&), Owner* owner) {
+    using Pointer = boost::shared_ptr<const Message>;
+    const boost::function<void(const Pointer&)> safe = [=](const Pointer& message) {
+      handle(topic, [&] { (owner->*receive)(message); });
+    };
+    return nh.subscribe<Message>(topic, queue, safe, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  }
+  /// A timer on the steady clock, which ticks even while /clock stands still; calls `work` in `catchAll`.
+  ros::SteadyTimer createTimer(ros::NodeHandle& nh, double period_sec, const std::string& name,
+                               std::function<void()> work);
 
  private:
   struct Item {
@@ -76,6 +94,7 @@ class Diagnostics {
   static constexpr int kAwaited = 3;  // beyond the levels of Health
   void look();
   bool lookAt(const std::string& name, Item& item);
+  double runningSec() const { return steadyNowSec() - started_sec_; }
   void sayOnConsole(const std::string& name, Item& item) const;
   Health clockHealth();
 
@@ -84,84 +103,9 @@ class Diagnostics {
   std::map<std::string, Item> items_;
   double published_sec_ = 0.0;
   FailureCount failures_;
+  std::function<void()> after_message_;
   double started_sec_ = 0.0, begun_sec_ = 0.0;  // start; in simulated time: first time on /clock
   double clock_sec_ = -1.0, clock_moved_sec_ = 0.0;
 };
-
-/// Whether a topic's messages arrive and are usable.
-class TopicHealth {
- public:
-  /// \param silence_sec longest accepted silence of the topic, on the steady clock
-  TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec);
-
-  /// Takes name and number of publishers from the subscriber (roscpp or image_transport) when needed.
-  template <typename Subscriber>
-  void watch(const Subscriber& subscriber) {
-    topic_ = [subscriber] { return subscriber.getTopic(); };
-    publishers_ = [subscriber] { return static_cast<int>(subscriber.getNumPublishers()); };
-  }
-
-  void arrived();
-  /// \param warning oddity of an accepted message, or empty
-  void accepted(const std::string& warning = "");
-  /// Notes the stamp of an accepted message, to report its age.
-  void stamped(double stamp_sec);
-  void refused(const std::string& why);  ///< also prints on the console, at most every 5 s
-
-  /// Time since the last usable message [s], on the steady clock; infinite before the first.
-  double silentSec() const;
-  Health health() const;
-
- private:
-  Health verdict() const;
-
-  std::string name_;
-  double silence_sec_;
-  std::function<std::string()> topic_;
-  std::function<int()> publishers_;
-  double started_sec_, arrived_sec_ = -1.0, accepted_sec_ = -1.0, said_sec_ = -1.0;
-  double age_sec_ = 0.0, period_sec_ = 0.0;  // period_sec_ is smoothed
-  long messages_ = 0, refusals_ = 0;
-  std::string refusal_, warning_;
-};
-
-/// Calls `work`. An exception is counted and reported in `diagnostics` under `name`. No exception may leave a
-/// callback, because it would end the process while the vehicle flies.
-/// \return false after an exception
-template <typename Work>
-bool catchAll(Diagnostics& diagnostics, const std::string& name, Work&& work) {
-  try {
-    std::forward<Work>(work)();
-    diagnostics.succeeded(name);
-    return true;
-  } catch (const std::exception& error) {
-    diagnostics.caught(name, error.what());
-  } catch (...) {
-    diagnostics.caught(name, "an exception of unknown type");
-  }
-  return false;
-}
-
-/// Subscribes `callback(const boost::shared_ptr<const Message>&)`; its exceptions are caught.
-template <typename Message>
-ros::Subscriber subscribeCatching(ros::NodeHandle& nh, const std::string& topic, int queue,
-                                  Diagnostics& diagnostics,
-                                  std::function<void(const boost::shared_ptr<const Message>&)> callback) {
-  using Pointer = boost::shared_ptr<const Message>;
-  const boost::function<void(const Pointer&)> safe = [&diagnostics, topic, callback](const Pointer& message) {
-    catchAll(diagnostics, topic, [&] { callback(message); });
-  };
-  return nh.subscribe<Message>(topic, queue, safe, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
-}
-
-/// A timer on the steady clock, which ticks even while /clock stands still; exceptions of its callback are
-/// caught.
-inline ros::SteadyTimer createCatchingTimer(ros::NodeHandle& nh, double period_sec, const std::string& name,
-                                            Diagnostics& diagnostics, std::function<void()> callback) {
-  return nh.createSteadyTimer(ros::WallDuration(period_sec),
-                              [&diagnostics, name, callback](const ros::SteadyTimerEvent&) {
-                                catchAll(diagnostics, name, callback);
-                              });
-}
 
 }  // namespace window_ingress::adapters

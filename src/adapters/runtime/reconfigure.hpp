@@ -3,6 +3,7 @@
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/config_tools.h>
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
@@ -11,6 +12,8 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include "window_ingress/parameters/fields.hpp"
 
@@ -22,37 +25,32 @@ inline std::string joinedName(std::string name) {
   return name;
 }
 
+/// Calls `each(name in dynamic_reconfigure, value)` for the numbers and switches of a struct.
+template <typename Params, typename Each>
+void forEachNumber(Params& params, const Each& each) {
+  const auto visit = [&each](const std::string& name, auto& value) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) each(name, value);
+  };
+  for (const parameters::Field& field : parameters::fieldsOf(params))
+    std::visit([&](auto* value) { visit(joinedName(field.name), *value); }, field.value);
+}
+
 /// The numbers and switches of a struct as a message.
 template <typename Params>
 dynamic_reconfigure::Config toConfigMsg(Params params) {
   dynamic_reconfigure::Config message;
-  const auto add = [](auto& list, const std::string& name, auto value) {
-    auto& entry = list.emplace_back();
-    entry.name = name;
-    entry.value = value;
-  };
-  for (const parameters::Field& field : parameters::fieldsOf(params)) {
-    const std::string name = joinedName(field.name);
-    if (const auto* number = std::get_if<double*>(&field.value)) add(message.doubles, name, **number);
-    if (const auto* whole = std::get_if<int*>(&field.value)) add(message.ints, name, **whole);
-    if (const auto* is_on = std::get_if<bool*>(&field.value)) add(message.bools, name, **is_on);
-  }
+  forEachNumber(params, [&](const std::string& name, const auto& value) {
+    dynamic_reconfigure::ConfigTools::appendParameter(message, name, value);
+  });
   return message;
 }
 
 /// The struct with the message's values; fields missing in the message keep their values.
 template <typename Params>
 Params fromConfigMsg(const dynamic_reconfigure::Config& message, Params params) {
-  const auto find = [](const auto& list, const std::string& name, auto& value) {
-    for (const auto& entry : list)
-      if (entry.name == name) value = static_cast<std::decay_t<decltype(value)>>(entry.value);
-  };
-  for (const parameters::Field& field : parameters::fieldsOf(params)) {
-    const std::string name = joinedName(field.name);
-    if (const auto* number = std::get_if<double*>(&field.value)) find(message.doubles, name, **number);
-    if (const auto* whole = std::get_if<int*>(&field.value)) find(message.ints, name, **whole);
-    if (const auto* is_on = std::get_if<bool*>(&field.value)) find(message.bools, name, **is_on);
-  }
+  forEachNumber(params, [&](const std::string& name, auto& value) {
+    dynamic_reconfigure::ConfigTools::getParameter(message, name, value);
+  });
   return params;
 }
 

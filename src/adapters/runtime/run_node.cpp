@@ -1,5 +1,3 @@
-#include "adapters/runtime/run_node.hpp"
-
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -9,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "adapters/nodes.hpp"
 #include "adapters/runtime/console_output.hpp"
 
 namespace window_ingress::adapters {
@@ -39,7 +38,7 @@ void spinUntilStopped() {
 }
 
 // The reason must stand out among the other nodes' lines, because roslaunch continues without this node.
-std::unique_ptr<Node> makeOrSayWhyNot(const std::string& name, const MakeNode& make, ros::NodeHandle& nh,
+std::unique_ptr<Node> makeOrSayWhyNot(const std::string& name, MakeNode& make, ros::NodeHandle& nh,
                                       ros::NodeHandle& pnh) {
   try {
     return make(nh, pnh);
@@ -51,7 +50,7 @@ std::unique_ptr<Node> makeOrSayWhyNot(const std::string& name, const MakeNode& m
 
 }  // namespace
 
-int runNode(int argc, char** argv, const std::string& name, const MakeNode& make) {
+int runNode(int argc, char** argv, const std::string& name, MakeNode& make) {
   decoupleConsole();
   bool refused = false;
   try {

@@ -2,7 +2,6 @@
 #include <deque>
 
 #include "adapters/world/world_node.hpp"
-#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -15,16 +14,16 @@ constexpr long kForgivenImages = 30;    // the vehicle flies on while the house 
 }  // namespace
 
 void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
-  vehicle_health_->arrived();
+  vehicle_->admits(message->header.stamp);
   const auto vehicle = fromMsg(*message, params_.frames);
-  if (!vehicle) return vehicle_health_->refused(vehicle.reason);
+  if (!vehicle) return vehicle_->refused(vehicle.reason);
   const double back_sec = followed_sec_ - vehicle.value->stamp_sec;
   if (running_ && back_sec >= 0.0 && back_sec <= kMaxLateSec)
-    return vehicle_health_->refused(
+    return vehicle_->refused(
         formatted("stamp is %.3f s before the latest: late samples are left out", back_sec));
   const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
-  if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
-  vehicle_health_->accepted();
+  if (!turning.allFinite()) return vehicle_->refused("angular velocity is not finite");
+  vehicle_->accepted();
   follow(*vehicle.value, turning);
 }
 

@@ -1,22 +1,23 @@
 #include "adapters/world/world_node.hpp"
 
+#include <std_srvs/Trigger.h>
+
 #include <algorithm>
 #include <limits>
 
-#include "adapters/conversions/stamps.hpp"
-#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
-#include "adapters/world/world_messages.hpp"
-#include "window_ingress/text/text.hpp"
+#include "adapters/runtime/services.hpp"
 
 namespace window_ingress::adapters {
 namespace {
+
+using std_srvs::Trigger;
 
 constexpr double kTickSec = 0.005;
 constexpr double kStartSec = 100.0;  // a stamp of zero means unstamped
 constexpr double kClockRateHz = 100.0;
 constexpr double kMaxDebtSec = 0.05;  // time that the machine falls behind by more is dropped, not caught up
-constexpr double kVehicleSilenceSec = 0.5;
+constexpr double kVehicleSilenceSec = 0.5, kAnySilenceSec = 1e9;
 constexpr double kStepSec = simulation::World::kStepSec;
 
 simulation::Scenario load(const WorldNodeParams& params) {
@@ -51,11 +52,11 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   restart();
   subscribe(nh);
   diagnostics_.add("speed", [this] { return speedHealth(); });
-  reset_ = pnh.advertiseService("reset", &WorldNode::reset, this);
+  reset_ = advertise<Trigger>(pnh, "reset", [this](auto&) { return reset(); });
   detector_reset_ = nh.serviceClient<Trigger>("window_detector/reset");
   pose_reset_ = nh.serviceClient<Trigger>("homography_pose/reset");
-  inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
-  timer_ = createCatchingTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
+  inject_ = advertise<Inject>(pnh, "inject", [this](const auto& request) { return inject(request); });
+  timer_ = diagnostics_.createTimer(nh, kTickSec, "tick", [this] { tick(); });
 }
 
 // A calibration of the camera (camera_info_url, set_camera_info), or else the truth.
@@ -65,19 +66,15 @@ void WorldNode::calibrate(const simulation::Scenario& scenario) {
 }
 
 void WorldNode::subscribe(ros::NodeHandle& nh) {
-  state_subscriber_ = subscribeCatching<window_ingress::IngressState>(
-      nh, "state", 10, diagnostics_, [this](const auto& message) { receiveState(message); });
+  state_subscriber_ = diagnostics_.subscribe(nh, "state", 10, &WorldNode::receiveState, this);
   if (isExternal()) {
-    vehicle_health_.emplace(diagnostics_, "vehicle_odom", kVehicleSilenceSec);
-    vehicle_subscriber_ = subscribeCatching<nav_msgs::Odometry>(
-        nh, "vehicle_odom", 10, diagnostics_, [this](const auto& message) { receiveVehicle(message); });
-    vehicle_health_->watch(vehicle_subscriber_);
-    return;
+    vehicle_.emplace(diagnostics_, "vehicle_odom", std::nullopt, kVehicleSilenceSec);
+    vehicle_->subscribe(nh, 10, &WorldNode::receiveVehicle, this);
+  } else {
+    command_.emplace(diagnostics_, "cmd_vel", std::nullopt, kAnySilenceSec);
+    command_->subscribe(nh, 1, &WorldNode::receiveCommand, this);
   }
-  command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
-  command_subscriber_ = subscribeCatching<geometry_msgs::TwistStamped>(
-      nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
-  command_health_->watch(command_subscriber_);
+  if (lockstep_) diagnostics_.afterEachMessage([this] { tickLockstep(); });
 }
 
 void WorldNode::restart() {
@@ -214,37 +211,30 @@ void WorldNode::sendImu(const simulation::ImuSample& sample) {
 // --- what comes --------------------------------------------------------------------------------------------
 
 void WorldNode::receiveCommand(const geometry_msgs::TwistStampedConstPtr& message) {
-  command_health_->arrived();
+  command_->admits(message->header.stamp);
   if (lockstep_) lockstep_->hearSetpoint(message->header.stamp);
   const auto setpoint = fromMsg(*message, params_.frames, R_odom_base_);
-  if (setpoint) {
-    command_health_->accepted();
-    const simulation::VelocityCommand command{setpoint.value->velocity_odom_mps,
-                                              setpoint.value->yaw_rate_radps};
-    lockstep_ ? void(answer_ = command) : world_->command(command);
-  } else {
-    command_health_->refused(setpoint.reason);
-  }
-  if (lockstep_) tickLockstep();
+  if (!setpoint) return command_->refused(setpoint.reason);
+  command_->accepted();
+  const simulation::VelocityCommand command{setpoint.value->velocity_odom_mps,
+                                            setpoint.value->yaw_rate_radps};
+  lockstep_ ? void(answer_ = command) : world_->command(command);
 }
 
 void WorldNode::receiveState(const window_ingress::IngressStateConstPtr& message) {
   referee_.hear(*message, *world_);
-  if (!lockstep_) return;
-  lockstep_->hearState(*message);
-  tickLockstep();
+  if (lockstep_) lockstep_->hearState(*message);
 }
 
-bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
+Reply WorldNode::reset() {
   if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
   T_odom_start_.reset();
   if (isExternal()) running_ = false;  // until the vehicle is heard again
   restart();
-  response.success = true;
-  response.message = "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) +
-                     " from its start" + makeOthersForget();
-  ROS_INFO("reset: %s", response.message.c_str());
-  return true;
+  const Reply reply{true, "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) +
+                              " from its start" + makeOthersForget()};
+  ROS_INFO("reset: %s", reply.message.c_str());
+  return reply;
 }
 
 // Makes other nodes forget the previous world. \return text to append to the answer
@@ -258,23 +248,23 @@ std::string WorldNode::makeOthersForget() {
   return said;
 }
 
-bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
+Reply WorldNode::inject(const window_ingress::InjectRequest& request) {
   simulation::FaultParams fault;
   fault.unit = request.unit;
   fault.kind = request.kind;
   fault.duration_sec = request.duration_sec;
   const bool unheard = lockstep_ && (fault.unit == "clock" || fault.unit == "tf");
+  Reply reply;
   try {
     if (unheard) throw InputError("fault: in lockstep nothing uses " + fault.unit);
     world_->inject(fault);
-    response.success = true;
-    response.message =
-        fault.unit + " " + fault.kind + formatted(" from %.3f s for %g s", now().toSec(), fault.duration_sec);
+    reply = {true, fault.unit + " " + fault.kind +
+                       formatted(" from %.3f s for %g s", now().toSec(), fault.duration_sec)};
   } catch (const InputError& error) {
-    response.message = error.what();
+    reply.message = error.what();
   }
-  ROS_INFO("inject: %s", response.message.c_str());
-  return true;
+  ROS_INFO("inject: %s", reply.message.c_str());
+  return reply;
 }
 
 Health WorldNode::speedHealth() const {
@@ -286,6 +276,10 @@ Health WorldNode::speedHealth() const {
   if (part > 0.1)
     return {Health::kWarn, formatted("slower than requested: %.0f %% of the time lost", 100.0 * part)};
   return {};
+}
+
+std::unique_ptr<Node> makeWorld(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  return std::make_unique<WorldNode>(nh, pnh);
 }
 
 }  // namespace window_ingress::adapters

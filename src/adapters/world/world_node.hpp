@@ -3,18 +3,11 @@
 #include <camera_info_manager/camera_info_manager.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <nav_msgs/Odometry.h>
-#include <ros/node_handle.h>
-#include <std_srvs/Trigger.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/Inject.h>
 
-#include <memory>
-#include <optional>
-#include <string>
-
-#include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/runtime/diagnostics.hpp"
-#include "adapters/runtime/run_node.hpp"
+#include "adapters/inputs/topic_input.hpp"
+#include "adapters/nodes.hpp"
 #include "adapters/world/world_lockstep.hpp"
 #include "adapters/world/world_publishers.hpp"
 #include "adapters/world/world_referee.hpp"
@@ -36,9 +29,6 @@ class WorldNode : public Node {
   void stop() override { referee_.finish(); }
 
  private:
-  using Trigger = std_srvs::Trigger;
-  using Inject = window_ingress::Inject;
-
   void subscribe(ros::NodeHandle& nh);
   void calibrate(const simulation::Scenario& scenario);
   void restart();
@@ -56,9 +46,9 @@ class WorldNode : public Node {
   void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
   void begin(const navigation::VehicleState& vehicle);
   void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
-  bool reset(Trigger::Request& request, Trigger::Response& response);
+  Reply reset();
   std::string makeOthersForget();
-  bool inject(Inject::Request& request, Inject::Response& response);
+  Reply inject(const window_ingress::InjectRequest& request);
 
   void tellTime();
   void sendCalibration(const simulation::CalibrationSample& sample);
@@ -72,7 +62,7 @@ class WorldNode : public Node {
 
   WorldNodeParams params_;
   Diagnostics diagnostics_;
-  std::optional<TopicHealth> command_health_, vehicle_health_;
+  std::optional<TopicInput> command_, vehicle_;
   std::unique_ptr<simulation::World> world_;
   Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // from the latest odometry
   std::optional<Eigen::Isometry3d> T_odom_start_;      // set if the world starts at the vehicle's place
@@ -89,7 +79,7 @@ class WorldNode : public Node {
   WorldReferee referee_;
   std::optional<WorldLockstep> lockstep_;
   std::optional<simulation::Periodic> truth_due_, images_;  // images_ is for lockstep
-  ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
+  ros::Subscriber state_subscriber_;
   ros::ServiceServer reset_, inject_;
   ros::ServiceClient detector_reset_, pose_reset_;
   ros::SteadyTimer timer_;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 
 namespace window_ingress::adapters::stamp_faults_test {

@@ -7,13 +7,12 @@
 #include <map>
 #include <set>
 
-#include "adapters/guard/setpoint_gate.hpp"
-#include "adapters/images/detector_node.hpp"
-#include "adapters/navigator/navigator_node.hpp"
-#include "adapters/pose/pose_node.hpp"
-#include "adapters/world/world_node.hpp"
+#include "adapters/runtime/reconfigure.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace window_ingress::adapters::parameter_files_test {
+
+using namespace configuration;
 
 using parameters::Field;
 

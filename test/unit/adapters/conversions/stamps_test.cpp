@@ -1,9 +1,9 @@
-#include "adapters/conversions/stamps.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "adapters/conversions/msg_conversion.hpp"
 
 namespace window_ingress::adapters::stamps_test {
 
