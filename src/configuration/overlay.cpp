@@ -18,8 +18,8 @@ PoseNodeParams forVehicle(PoseNodeParams params, const navigation::VehicleParams
 }
 
 Overlay readOverlay(const std::string& file, Overlay overlay) {
-  overlay.said.clear();
-  if (!file.empty()) overlay.said = parameters::readYamlFile(file, overlay);
+  overlay.given.clear();
+  if (!file.empty()) overlay.given = parameters::readYamlFile(file, overlay);
   overlay.ingress_navigator.navigator.vehicle = overlay.vehicle;
   overlay.homography_pose = forVehicle(overlay.homography_pose, overlay.vehicle);
   return overlay;

@@ -1,8 +1,7 @@
 #include "evaluation/csv.hpp"
 
+#include <algorithm>
 #include <cstdlib>
-
-#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -47,6 +46,12 @@ std::string csvCornerColumns(const std::string& name) {
   return text;
 }
 
+std::string markdownHead(const std::string& columns) {
+  std::string rule = "|";
+  for (auto bars = std::count(columns.begin(), columns.end(), '|'); bars > 1; --bars) rule += "---|";
+  return columns + "\n" + rule + "\n";
+}
+
 CsvReader::CsvReader(const std::string& file) : name_(file), file_(file) {
   if (!std::getline(file_, line_)) throw InputError(file + ": cannot be read, or empty");
   columns_ = fieldsOf(line_);
@@ -65,29 +70,12 @@ bool CsvReader::next() {
   return true;
 }
 
-bool CsvReader::nextWhole() { return next() && isWhole(); }
-
-bool CsvReader::nextFinished() { return next() && !file_.eof() && isWhole(); }
-
-bool CsvReader::isWhole() const {
-  if (fields_.size() != columns_.size()) fail("has not " + std::to_string(columns_.size()) + " fields");
-  return true;
-}
-
-std::string CsvReader::text(std::size_t column) const {
-  return column < fields_.size() ? fields_[column] : std::string();
-}
-
 double CsvReader::number(std::size_t column) const {
   const std::string field = text(column);
   char* end = nullptr;
   const double value = std::strtod(field.c_str(), &end);
   if (field.empty() || *end != '\0') fail("'" + field + "' is not a number");
   return value;
-}
-
-void CsvReader::fail(const std::string& what) const {
-  throw InputError(name_ + ":" + std::to_string(number_) + ": " + what);
 }
 
 }  // namespace window_ingress::evaluation

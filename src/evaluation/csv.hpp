@@ -1,4 +1,4 @@
-/// Tables as csv files; a quoted field may hold commas and doubled quotes.
+/// Tables as csv files, in which a quoted field may hold commas and doubled quotes, and in markdown.
 #pragma once
 
 #include <fstream>
@@ -18,6 +18,9 @@ std::string csvCorners(const geometry::Quadrilateral& corners, const char* patte
 /// Names of these columns: ",inner_x1,inner_y1,...".
 std::string csvCornerColumns(const std::string& name);
 
+/// The head of a markdown table, "| a | b |", and the rule below it.
+std::string markdownHead(const std::string& columns);
+
 /// The rows of a table below its header, one after the other.
 class CsvReader {
  public:
@@ -26,17 +29,25 @@ class CsvReader {
   CsvReader(const std::string& file, const std::string& header);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  bool next();          ///< the next row; false at the end
-  bool nextWhole();     ///< the next row; \throws InputError unless it has a field for each column
-  bool nextFinished();  ///< as `nextWhole`, but skips an incomplete last row without a line end
+  bool next();  ///< the next row; false at the end
+  /// The next row. \throws InputError unless it has a field for each column
+  bool nextWhole() { return next() && isWhole(); }
+  /// As `nextWhole`, but skips an incomplete last row without a line end.
+  bool nextFinished() { return next() && !file_.eof() && isWhole(); }
 
   const std::string& line() const { return line_; }  ///< the row as text
-  std::string text(std::size_t column) const;        ///< empty if the row is shorter
-  double number(std::size_t column) const;           ///< \throws InputError if it is not a number
-  [[noreturn]] void fail(const std::string& what) const;
+  /// Empty if the row is shorter.
+  std::string text(std::size_t column) const { return column < fields_.size() ? fields_[column] : ""; }
+  double number(std::size_t column) const;  ///< \throws InputError if it is not a number
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ":" + std::to_string(number_) + ": " + what);
+  }
 
  private:
-  bool isWhole() const;
+  bool isWhole() const {
+    if (fields_.size() != columns_.size()) fail("has not " + std::to_string(columns_.size()) + " fields");
+    return true;
+  }
 
   std::string name_, line_;
   std::ifstream file_;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "window_ingress/text/text.hpp"
@@ -20,16 +21,20 @@ inline void makeFolderOf(const std::filesystem::path& file) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
 }
 
-/// A text file. \throws std::runtime_error that names it if it cannot be made or finished
+/// A text file, or a table below its header. \throws std::runtime_error that names it if it cannot be made or
+/// finished
 class OutputFile : public std::ofstream {
  public:
   OutputFile() = default;
-  explicit OutputFile(const std::filesystem::path& file) { open(file); }
+  explicit OutputFile(const std::filesystem::path& file, const std::string& header = "") {
+    open(file, header);
+  }
 
-  void open(const std::filesystem::path& file) {
+  void open(const std::filesystem::path& file, const std::string& header = "") {
     makeFolderOf(file);
     std::ofstream::open(file_ = file);
     check();
+    if (!header.empty()) *this << header << "\n";
   }
   void check() const {
     if (!*this) cannotBeWritten(file_);
@@ -43,6 +48,13 @@ class OutputFile : public std::ofstream {
  private:
   std::filesystem::path file_;
 };
+
+/// \throws std::runtime_error that names the file
+inline void writeText(const std::filesystem::path& file, const std::string& text) {
+  OutputFile output(file);
+  output << text;
+  output.finish();
+}
 
 /// An image with unchanged pixels; empty if the file cannot be read as an image.
 inline cv::Mat imageOrNone(const std::filesystem::path& file) {

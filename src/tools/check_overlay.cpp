@@ -2,7 +2,7 @@
 #include <ros/package.h>
 
 #include <algorithm>
-#include <cmath>
+#include <boost/algorithm/string.hpp>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -27,11 +27,23 @@ namespace {
 
 using namespace window_ingress;
 
+// As in launch files: may be surrounded by brackets and blanks.
+std::string given(const std::string& text) {
+  const std::string inside = boost::trim_copy_if(text, boost::is_any_of(" []"));
+  return inside == "none" ? "" : inside;
+}
+
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
       image_transport, odom_frame, needs_package, needs_display, scenario, flown_by, print, launch_folder,
       record, bag, plays;
   std::uint32_t seed = 1;
+
+  // A vehicle flies that is not in this package's simulation.
+  bool asksForSizes() const { return needs_window_size == "true" || needs_window_size == "warn"; }
+  // sim.launch: what the file does not give the scenario does, and checkScenario looks at it.
+  bool isSimulated() const { return !given(defaults).empty(); }
+  bool isByHand() const { return launch_folder.empty() && fly.empty() && bag.empty(); }
 };
 
 tools::OptionList describe(Options& o) {
@@ -72,22 +84,6 @@ tools::OptionList describe(Options& o) {
   return add;
 }
 
-// As in launch files: may be surrounded by brackets and blanks.
-std::string given(std::string text) {
-  const std::size_t begin = text.find_first_not_of(" []");
-  if (begin == std::string::npos) return "";
-  text = text.substr(begin, text.find_last_not_of(" []") + 1 - begin);
-  return text == "none" ? "" : text;
-}
-
-// A vehicle flies that is not in this package's simulation.
-bool asksForSizes(const Options& o) { return o.needs_window_size == "true" || o.needs_window_size == "warn"; }
-
-// sim.launch: what the file does not give the scenario does, and checkScenario looks at it.
-bool isSimulated(const Options& o) { return !given(o.defaults).empty(); }
-
-bool isByHand(const Options& o) { return o.launch_folder.empty() && o.fly.empty() && o.bag.empty(); }
-
 /// \return width over height of the opening in the reference image; 0: not given
 double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
@@ -100,7 +96,7 @@ double checkReference(const Options& o, const std::string& file,
   if (reference.picture.empty()) {
     if (!reference.corners.empty())
       throw InputError(from + "reference corners without their image: give reference:= as well");
-    if (asksForSizes(o))
+    if (o.asksForSizes())
       tools::warn(
           "no reference image (reference:=, or window_detector/reference in the file): the detector may lock "
           "onto another window or a decoy");
@@ -122,11 +118,10 @@ double checkReference(const Options& o, const std::string& file,
 void checkTransport(const Options& o, const std::string& file, const configuration::Overlay& overlay) {
   const char* key = "window_detector/image_transport";
   const std::string& in_file = overlay.window_detector.image_transport;
-  const std::string& transport = overlay.said.count(key) != 0 ? in_file : o.image_transport;
+  const std::string& transport = overlay.gives(key) ? in_file : o.image_transport;
   const std::string why = transport.empty() ? "" : adapters::whyNoTransport(transport);
   if (!why.empty()) throw InputError(why);
-  if (overlay.said.count(key) != 0)
-    tools::checkAgrees("image_transport", o.image_transport, file, key, in_file);
+  if (overlay.gives(key)) tools::checkAgrees("image_transport", o.image_transport, file, key, in_file);
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -210,22 +205,22 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   double aspect = 0.0;
   faults.collect([&] { aspect = checkReference(o, file, overlay.window_detector); });
   faults.collect([&] { checkTransport(o, file, overlay); });
-  if (const char* key = "vehicle/odom_frame"; overlay.said.count(key) != 0)
+  if (const char* key = "vehicle/odom_frame"; overlay.gives(key))
     faults.collect(
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { tools::overrideWindowSize(given(o.window_size), file, overlay); });
-  if (aspect > 0.0 && tools::saysOpening(overlay)) tools::checkAspect(aspect, overlay.homography_pose.pose);
+  const bool gives_opening = tools::givesOpening(overlay);
+  if (aspect > 0.0 && gives_opening) tools::checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
-  if (asksForSizes(o))
-    faults.collect([&] { tools::checkOpeningIsSaid(overlay, o.needs_window_size == "true"); });
-  else if (!isSimulated(o))
+  if (o.asksForSizes())
+    faults.collect([&] { tools::checkOpeningIsGiven(overlay, o.needs_window_size == "true"); });
+  else if (!o.isSimulated())
     tools::checkBothSides(overlay);
-  if (isByHand(o) ? tools::saysOpening(overlay) : asksForSizes(o) && o.fly == "true")
-    tools::checkVehicleIsSaid(overlay);
+  if (o.isByHand() ? gives_opening : o.asksForSizes() && o.fly == "true") tools::checkVehicleIsGiven(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
-  const bool says_both = tools::saysOpening(overlay) && (tools::says(overlay, "vehicle/half_width_m") ||
-                                                         tools::says(overlay, "vehicle/half_height_m"));
-  if ((o.fly == "true" && !isSimulated(o)) || (o.fly.empty() && says_both))
+  const bool gives_both =
+      gives_opening && (overlay.gives("vehicle/half_width_m") || overlay.gives("vehicle/half_height_m"));
+  if ((o.fly == "true" && !o.isSimulated()) || (o.fly.empty() && gives_both))
     faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
@@ -239,18 +234,16 @@ void checkScenario(const Options& o, configuration::Overlay& overlay, tools::Inp
   faults.collect([&] { tools::checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 
-int printSize(const Options& o) {
-  const auto scenario = simulation::loadScenario(o.scenario, o.seed);
-  std::cout << tools::sizeCalled(o.print, tools::flownIn(scenario, given(o.flown_by))) << "\n";
-  return 0;
-}
-
 int check(const Options& o) {
-  const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
-                            o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
-                            o.scenario.empty() && o.launch_folder.empty() && o.bag.empty();
-  if (asks_nothing) throw InputError("no file given; see --help");
-  if (!o.print.empty()) return printSize(o);
+  if ((o.file + o.reference + o.corners + o.window_size + o.camera_pose + o.needs_window_size + o.scenario +
+       o.launch_folder + o.bag)
+          .empty())
+    throw InputError("no file given; see --help");
+  if (!o.print.empty()) {
+    const auto scenario = simulation::loadScenario(o.scenario, o.seed);
+    std::cout << tools::sizeCalled(o.print, tools::flownIn(scenario, given(o.flown_by))) << "\n";
+    return 0;
+  }
   tools::InputFaults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
   const std::string file = given(o.file);
@@ -264,7 +257,7 @@ int check(const Options& o) {
   faults.collect([&] { checkIsNew(given(o.record)); });
   faults.collect([&] { tools::checkPlayed(o.bag, o.plays); });
   faults.throwIfAny();
-  if (isByHand(o) || (asksForSizes(o) && o.fly == "true"))
+  if (o.isByHand() || (o.asksForSizes() && o.fly == "true"))
     std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";
   std::cout << file << "\n";
   return 0;
@@ -274,12 +267,7 @@ int check(const Options& o) {
 
 int main(int argc, char** argv) {
   const int code = tools::runTool("check_overlay", argc, argv, describe, check);
-  const auto caller = tools::wordsOfParent();
-  const bool refuses_launch =
-      code != 0 && std::any_of(caller.begin(), caller.end(), [](const std::string& word) {
-        return std::filesystem::path(word).filename() == "roslaunch";
-      });
-  if (refuses_launch)
+  if (code != 0 && tools::isRoslaunch(tools::wordsOfParent()))
     std::cerr << "check_overlay: nothing is started. The message below is roslaunch's own and adds nothing\n";
   return code;
 }

@@ -1,11 +1,12 @@
 /// Finds the window in single images; one csv row per image. See --help.
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -109,12 +110,8 @@ tools::OptionList describe(Options& o) {
 }
 
 bool looksLikeImage(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  for (const char* known : {".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"})
-    if (extension == known) return true;
-  return false;
+  static const std::set<std::string> kKnown{".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"};
+  return kKnown.count(boost::to_lower_copy(path.extension().string())) > 0;
 }
 
 // A file with another name would be an image or a parameter file, which would be lost.
@@ -201,14 +198,12 @@ evaluation::DetectionRow process(const cv::Mat& image, const Job& job, WindowFin
   const auto start = Clock::now();
   row.window = finder.find(image, fits ? &*job.camera : nullptr);
   if (!row.window) row.reject_reason = detection::toString(finder.trace().outcome);
-  if (row.window && row.window->whole() && job.estimator) {
-    if (fits) {
-      const estimation::PoseResult result = job.estimator->estimate(*row.window, *job.camera);
-      row.pose = result.estimate;
-      if (!row.pose) row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
-    } else {
-      row.reject_reason = "pose_camera_size";
-    }
+  const bool wants_pose = row.window && row.window->whole() && job.estimator;
+  if (wants_pose && !fits) row.reject_reason = "pose_camera_size";
+  if (wants_pose && fits) {
+    const estimation::PoseResult result = job.estimator->estimate(*row.window, *job.camera);
+    row.pose = result.estimate;
+    if (!row.pose) row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
   }
   row.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return row;
@@ -225,11 +220,6 @@ void writeOverlay(const std::string& file, const cv::Mat& image, const WindowFin
   evaluation::writeImage(fs::path(folder) / (fs::path(file).filename().string() + ".png"), canvas);
 }
 
-void begin(evaluation::OutputFile& output, const std::string& file, const std::string& header) {
-  output.open(file);
-  output << "file," << header << "\n";
-}
-
 int run(const Options& o) {
   check(o);
   const std::vector<std::string> images = listImages(o.inputs);
@@ -237,9 +227,9 @@ int run(const Options& o) {
   const Job job = prepare(o);
   if (!o.overlay.empty()) tools::makeFolder(o.overlay);
   WindowFinder finder(job.params, job.reference, o.track ? o.rate_hz : 0.0);
-  evaluation::OutputFile output, candidates;
-  begin(output, o.output, evaluation::detectionColumns() + finder.columns());
-  if (!o.candidates.empty()) begin(candidates, o.candidates, evaluation::candidateColumns());
+  evaluation::OutputFile output(o.output, "file," + evaluation::detectionColumns() + finder.columns()),
+      candidates;
+  if (!o.candidates.empty()) candidates.open(o.candidates, "file," + evaluation::candidateColumns());
   int unreadable = 0, found = 0, not_compared = 0;
   tools::Progress progress("detect_images", "images", images.size());
   for (const std::string& file : images) {

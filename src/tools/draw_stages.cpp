@@ -24,11 +24,6 @@ struct Job {
   tools::ViewOptions view;
 };
 
-struct Subject {
-  cv::Mat image;
-  std::optional<detection::ReferenceAppearance> reference;
-};
-
 tools::OptionList describe(Job& job) {
   tools::OptionList add("Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE");
   add.required("output,o", job.output, "the sheet");
@@ -42,24 +37,24 @@ tools::OptionList describe(Job& job) {
   return add;
 }
 
-Subject photograph(const Job& job) {
-  const auto scenario = simulation::loadScenario(job.scenario, job.seed);
-  Subject subject{tools::photograph(scenario, job.seed, job.view), std::nullopt};
-  geometry::Quadrilateral corners;
-  const cv::Mat image = simulation::referenceImage(scenario, &corners);
-  subject.reference.emplace(image, corners);
-  return subject;
-}
-
 int run(const Job& job) {
   if (job.scenario.empty() == job.image.empty())
     throw InputError("give either a scenario or an image; see --help");
   job.view.check();
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
-  const Subject subject =
-      job.image.empty() ? photograph(job) : Subject{evaluation::readImage(job.image), std::nullopt};
-  const cv::Mat sheet = evaluation::stageSheet(
-      subject.image, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
+  cv::Mat image;
+  std::optional<detection::ReferenceAppearance> reference;
+  if (job.image.empty()) {
+    const auto scenario = simulation::loadScenario(job.scenario, job.seed);
+    image = tools::photograph(scenario, job.seed, job.view);
+    geometry::Quadrilateral corners;
+    const cv::Mat of_target = simulation::referenceImage(scenario, &corners);
+    reference.emplace(of_target, corners);
+  } else {
+    image = evaluation::readImage(job.image);
+  }
+  const cv::Mat sheet =
+      evaluation::stageSheet(image, params, reference ? &*reference : nullptr, job.cell_width_px);
   evaluation::writeImage(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return 0;
 }

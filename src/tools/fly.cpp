@@ -30,26 +30,17 @@ using namespace window_ingress;
 using tools::FlyJob;
 using Observer = std::unique_ptr<evaluation::FlightObserver>;
 
-evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
-  return {scenario.window.width_m, scenario.window.height_m,
-          scenario.window.frame_depth_m + scenario.house.wall_thickness_m};
-}
-
 /// The files that grow during the flights, and those written at the end.
 class FlyResults {
  public:
   explicit FlyResults(const FlyJob& job)
       : job_(job),
         folder_(job.asked.output),
-        rows_(folder_ / "flights.csv"),
-        tracks_(folder_ / "tracks.csv") {
+        rows_(folder_ / "flights.csv", evaluation::csvHeader()),
+        tracks_(folder_ / "tracks.csv", evaluation::trackHeader()) {
     for (const char* of_the_whole : {"summary.json", "tracks.png"})
       std::filesystem::remove(folder_ / of_the_whole);
-    evaluation::OutputFile inputs(folder_ / tools::kInputsFile);
-    inputs << tools::inputsOf(job.asked);
-    inputs.finish();
-    rows_ << evaluation::csvHeader() << "\n";
-    tracks_ << evaluation::trackHeader() << "\n";
+    evaluation::writeText(folder_ / tools::kInputsFile, tools::inputsOf(job.asked));
     rows_.finish();  // if stopped before the first flight, the files can still be resumed
     tracks_.finish();
   }
@@ -58,7 +49,7 @@ class FlyResults {
     tracks_ << evaluation::trackRows(flight);
     rows_.check();
     tracks_.finish();
-    passed_ += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
+    passed_ += flight.outcome == simulation::Outcome::kPassed;
   }
   int passed() const { return passed_; }
   void finish() {
@@ -66,14 +57,11 @@ class FlyResults {
     tracks_.finish();
     // Uses numbers as written in the table: joined shards give the same bytes.
     const auto flights = evaluation::readFlights(folder_.string());
-    evaluation::OutputFile summary(folder_ / "summary.json");
-    summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));
-    summary.finish();
-    const auto scenario = job_.scenario(seedOf(flights));
+    evaluation::writeText(folder_ / "summary.json", evaluation::toJson(flights, factsOf(flights)));
+    const auto scenario = job_.scenario(flights.empty() ? 1u : flights.front().seed);  // a shard may be empty
     const std::string title = std::filesystem::path(job_.asked.scenario).stem().string() + ", " +
                               std::to_string(flights.size()) + " flights";
-    evaluation::writeImage(folder_ / "tracks.png",
-                           evaluation::drawTracks(flights, outlineOf(scenario), title));
+    evaluation::writeImage(folder_ / "tracks.png", evaluation::drawTracks(flights, scenario, title));
     std::printf("%d of %zu flights passed: flights.csv, tracks.csv, tracks.png and summary.json in %s\n",
                 passed_, flights.size(), folder_.c_str());
   }
@@ -85,10 +73,6 @@ class FlyResults {
     const tools::FlyOptions& o = job_.asked;
     return {o.scenario,     evaluation::seedsText(seeds), o.draws, o.params,
             !o.no_pictures, WINDOW_INGRESS_VERSION};
-  }
-  // Seed of the flight whose scenario the image shows; a shard may have no flight.
-  std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
-    return flights.empty() ? 1u : flights.front().seed;
   }
 
   const FlyJob& job_;
@@ -141,7 +125,7 @@ void recordAgain(const FlyJob& job, const simulation::Scenario& scenario,
   if (evaluation::csvRow(again) != evaluation::csvRow(flight))
     throw std::runtime_error("seed " + std::to_string(flight.seed) +
                              ": flown again for its bag, it ended differently; flights must be repeatable");
-  evaluation::writeImage(name + ".png", strip.draw(flight, outlineOf(scenario)));
+  evaluation::writeImage(name + ".png", strip.draw(flight, scenario));
 }
 
 evaluation::FlightResult fly(const FlyJob& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
@@ -198,13 +182,6 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   return flights;
 }
 
-std::vector<std::uint32_t> without(std::vector<std::uint32_t> seeds,
-                                   const std::vector<evaluation::FlightResult>& flown) {
-  for (const auto& flight : flown)
-    seeds.erase(std::remove(seeds.begin(), seeds.end(), flight.seed), seeds.end());
-  return seeds;
-}
-
 // \return number of flights flown
 int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResults& results) {
   std::mutex mutex;
@@ -251,8 +228,12 @@ int run(const tools::FlyOptions& asked) {
   stopAt(SIGINT);
   stopAt(SIGTERM);
   FlyResults results(job);
-  for (const auto& flight : before) results.add(flight);
-  const std::size_t flown = before.size() + flyJob(job, without(job.seeds, before), results);
+  auto seeds = job.seeds;
+  for (const auto& flight : before) {
+    results.add(flight);
+    seeds.erase(std::remove(seeds.begin(), seeds.end(), flight.seed), seeds.end());
+  }
+  const std::size_t flown = before.size() + flyJob(job, seeds, results);
   results.finish();
   if (flown < job.seeds.size())
     throw std::runtime_error(std::to_string(flown) + " of " + std::to_string(job.seeds.size()) +

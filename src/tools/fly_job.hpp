@@ -104,19 +104,13 @@ inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
                    file + " shows, or another folder");
 }
 
-// Protects the results of a folder that is given a second time.
-inline void checkOutput(const FlyJob& job) {
-  const FlyOptions& o = job.asked;
+inline FlyJob jobOf(const FlyOptions& o) {
+  FlyJob job{o};
   if (o.resume && o.overwrite) throw InputError("--resume and --overwrite: give one of them");
   if (job.holdsFlights() && !o.resume && !o.overwrite)
     throw InputError(o.output +
                      " holds the flights of an earlier campaign: --resume goes on with it, --overwrite "
                      "replaces it, or give another folder");
-}
-
-inline FlyJob jobOf(const FlyOptions& o) {
-  FlyJob job{o};
-  checkOutput(job);
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
   if (!o.params.empty()) {

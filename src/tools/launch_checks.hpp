@@ -23,18 +23,18 @@
 
 namespace window_ingress::tools {
 
-inline std::string beginningOf(const std::filesystem::path& file, std::size_t bytes) {
-  std::string beginning(bytes, ' ');
-  std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(bytes));
-  return beginning;
-}
-
 /// The command of the process that started this one.
 inline std::vector<std::string> wordsOfParent() {
   std::istringstream stream(contentOf("/proc/" + std::to_string(getppid()) + "/cmdline"));
   std::vector<std::string> words;
   for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
   return words;
+}
+
+inline bool isRoslaunch(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return std::filesystem::path(word).filename() == "roslaunch";
+  });
 }
 
 /// Declaration of an argument in a launch file.
@@ -106,15 +106,12 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
 inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
                                           const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  bool is_roslaunch = false;
   std::vector<fs::path> files;
-  for (const fs::path word : words) {
-    const bool assigns = word.string().find(":=") != std::string::npos;
-    if (!assigns && word.extension() == ".launch") files.push_back(word);
-    is_roslaunch = is_roslaunch || word.filename() == "roslaunch";
-  }
+  for (const std::string& word : words)
+    if (word.find(":=") == std::string::npos && fs::path(word).extension() == ".launch")
+      files.emplace_back(word);
   std::error_code error;
-  if (!is_roslaunch || files.size() != 1) return {};
+  if (!isRoslaunch(words) || files.size() != 1) return {};
   const fs::path file = folder / files[0].filename();
   const bool is_ours =
       files[0].has_parent_path() ? fs::equivalent(files[0], file, error) : fs::exists(file, error);
@@ -141,8 +138,9 @@ inline std::vector<std::string> filesIn(const std::string& files) {
 inline std::string whyNotFile(const std::string& doc, const std::string& file) {
   if (file[0] != '/') return "";  // refused elsewhere as a relative path
   if (!std::filesystem::exists(file)) return "no such file";
-  const bool is_bag = beginningOf(file, 8) == "#ROSBAG ";
-  return doc.rfind("existing bag ", 0) == 0 && !is_bag ? "is no bag file" : "";
+  std::string beginning(8, ' ');
+  std::ifstream(file, std::ios::binary).read(beginning.data(), 8);
+  return doc.rfind("existing bag ", 0) == 0 && beginning != "#ROSBAG " ? "is no bag file" : "";
 }
 
 /// Checks an argument that is also used outside the nodes reading the file: by the guard, rviz, or a bag

@@ -1,5 +1,6 @@
 /// Makes the operator's reference from an image of the target: four corners, clicked or given. See --help.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -13,15 +14,80 @@
 #include "adapters/images/reference_source.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "command_line.hpp"
-#include "corner_fit.hpp"
 #include "display.hpp"
 #include "evaluation/output_file.hpp"
 #include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace window_ingress;
+
+constexpr double kMaxShownPx = 1000.0;  // of the image on the screen, 300 more for the panel
+constexpr double kFitRadiusPx = 6.0;    // on the screen
+constexpr double kMaxMovedPx = 3.0;     // of a side by the fit, on the screen: clicks are more accurate
+constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
+constexpr double kNearPx = 3.0;         // on the screen: corners further from an edge are doubtful
+constexpr double kMinOnEdge = 0.7;      // of each side, on one straight edge
+const char* const kSides[] = {"top", "right", "bottom", "left"};
+
+/// Result of a fit of the corners to the edges near them.
+struct CornerFit {
+  std::vector<double> corners;  ///< empty: the fit failed
+  std::string said;             ///< how far each side moves, or why the fit is refused
+};
+
+// How far the ends of the side that begins at this corner have moved [px].
+double sideMovedPx(const geometry::Quadrilateral& from, const geometry::Quadrilateral& to, std::size_t side) {
+  const Eigen::Vector2d begin = to[side], along = (to[(side + 1) % 4] - begin).normalized();
+  const auto across = [&](const Eigen::Vector2d& p) { return std::abs(geometry::cross(along, p - begin)); };
+  return std::max(across(from[side]), across(from[(side + 1) % 4]));
+}
+
+/// Fits to the strongest edges within `radius_px` on the screen. Refused if a side finds no edge, or one too
+/// far away for a click.
+CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std::vector<double>& corners) {
+  geometry::Quadrilateral quad;
+  for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
+  const auto clicked = geometry::canonical(quad);
+  if (!clicked) return {{}, "the corners are not a convex quadrilateral"};
+  const double scale = std::max(1.0, std::max(image.cols, image.rows) / kMaxShownPx);
+  double on_edge = 0.0;
+  const auto borders = detection::refineBorders(image, {*clicked, radius_px * scale}, nullptr, &on_edge);
+  if (on_edge < kMinOnEdge)
+    return {{}, formatted("only %.0f %% of one side lie on a straight edge near it", 100.0 * on_edge)};
+  if (!borders) return {{}, "the straight edge near one side leads away from its corners"};
+  const auto sides_px = geometry::sideLengths(*clicked);
+  const double most_px =
+      std::min(kMaxMovedPx * scale, kMaxMovedPart * *std::min_element(sides_px.begin(), sides_px.end()));
+  CornerFit fit;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const double moved_px = sideMovedPx(*clicked, borders->corners, side);
+    if (!(moved_px <= most_px))
+      return {{},
+              formatted("the %s side would move by %.1f px, more than %.1f, so it lies beside the inner edge",
+                        kSides[side], moved_px, most_px)};
+    fit.said += formatted("%s%s %.1f px", side == 0 ? "" : ", ", kSides[side], moved_px);
+  }
+  for (const auto& corner : borders->corners) fit.corners.insert(fit.corners.end(), {corner.x(), corner.y()});
+  return fit;
+}
+
+/// A deep frame has two parallel edges, and the further one may be the stronger: near edges are tried first.
+CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners) {
+  const CornerFit near = fittedWithin(kNearPx, image, corners);
+  return near.corners.empty() ? fittedWithin(kFitRadiusPx, image, corners) : near;
+}
+
+/// Distance of unfitted corners from the edges near them; no edges are near poor corners.
+CornerFit besideEdges(const cv::Mat& image, const std::vector<double>& corners) {
+  CornerFit fit = fittedWithin(kNearPx, image, corners);
+  fit.said = (fit.corners.empty() ? "poor corners: " : "beside the edges near them: ") + fit.said;
+  return fit;
+}
 
 std::vector<double> flat(const std::vector<cv::Point2d>& points) {
   std::vector<double> numbers;
@@ -32,7 +98,7 @@ std::vector<double> flat(const std::vector<cv::Point2d>& points) {
 class CornerClicks {
  public:
   explicit CornerClicks(const cv::Mat& image)
-      : image_(image), scale_(std::min(1.0, tools::kMaxShownPx / std::max(image.cols, image.rows))) {
+      : image_(image), scale_(std::min(1.0, kMaxShownPx / std::max(image.cols, image.rows))) {
     cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
   }
@@ -73,7 +139,7 @@ class CornerClicks {
 
   // A second Enter saves anyway.
   bool isDoubtful() {
-    const tools::CornerFit beside = tools::besideEdges(image_, flat(points_));
+    const CornerFit beside = besideEdges(image_, flat(points_));
     const std::string asked = beside.said + ". Enter saves anyway";
     if (!beside.corners.empty() || said_ == asked) return false;
     said_ = asked;
@@ -81,7 +147,7 @@ class CornerClicks {
   }
 
   void fit() {
-    const tools::CornerFit fit = tools::fitted(image_, flat(points_));
+    const CornerFit fit = fitted(image_, flat(points_));
     said_ = (fit.corners.empty() ? "not fitted: " : "moved by the fit: ") + fit.said;
     std::cout << said_ << std::endl;
     for (std::size_t i = 0; i < points_.size() && !fit.corners.empty(); ++i)
@@ -194,14 +260,14 @@ int run(const Job& job) {
     corners = *clicked;
   }
   if (job.fit) {
-    const auto fit = tools::fitted(image, corners);
+    const auto fit = fitted(image, corners);
     if (fit.corners.empty())
       throw std::runtime_error("not fitted: " + fit.said + "; correct the corners, or leave out --fit");
     std::cout << "moved by the fit: " << fit.said << "\n";
     corners = fit.corners;
   }
   const auto reference = adapters::makeReference(image, corners, params);
-  const auto beside = tools::besideEdges(image, corners);
+  const auto beside = besideEdges(image, corners);
   if (beside.corners.empty())
     std::cerr << "make_reference: warning: " << beside.said << "\n";
   else

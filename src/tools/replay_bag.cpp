@@ -1,4 +1,5 @@
 /// Detector, pose and filter over a bag; one csv row per image, and a plot. See --help.
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,7 +66,7 @@ void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::
 void takeOdomFrame(const rosbag::Bag& bag, adapters::ReplayParams& params) {
   const std::string recorded = adapters::recordedOdomFrame(bag, params.topics.odom);
   std::string& frame = params.vehicle.frames.odom;
-  if (params.said.count("vehicle/odom_frame") > 0 || recorded.empty() || recorded == frame) return;
+  if (params.gives("vehicle/odom_frame") || recorded.empty() || recorded == frame) return;
   say("odometry in the frame '" + recorded + "', as the bag has it");
   frame = recorded;
 }
@@ -83,7 +84,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   } else {
     say("no reference image in the bag or from --reference: windows are recognised by geometry only");
   }
-  params.with_pose = !o.size.empty() || params.said.count("homography_pose/pose/opening_width_m") > 0;
+  params.with_pose = !o.size.empty() || params.gives("homography_pose/pose/opening_width_m");
   if (!params.with_pose) say("the opening's size is missing (--window-size W,H): corners, but no poses");
   if (!o.size.empty()) tools::takeWindowSize("--window-size", o.size, params.homography_pose.pose);
   return params;
@@ -99,13 +100,10 @@ void runScript(const std::string& name, const std::vector<std::string>& argument
   std::vector<char*> given;
   for (std::string& word : words) given.push_back(word.data());
   given.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    execv("/usr/bin/python3", given.data());
-    _exit(127);
-  }
+  pid_t child = 0;
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) != child || status != 0)
+  if (posix_spawn(&child, "/usr/bin/python3", nullptr, nullptr, given.data(), environ) != 0 ||
+      waitpid(child, &status, 0) != child || status != 0)
     throw std::runtime_error(script.string() + " failed; is python3-matplotlib installed?");
 }
 

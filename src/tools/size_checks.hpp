@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -20,79 +19,82 @@ namespace window_ingress::tools {
 
 inline void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
-inline const std::vector<const char*> kOpening = {"homography_pose/pose/opening_width_m",
+inline const std::vector<std::string> kOpening = {"homography_pose/pose/opening_width_m",
                                                   "homography_pose/pose/opening_height_m"};
-inline const std::vector<const char*> kBody = {"vehicle/half_length_m", "vehicle/half_width_m",
+inline const std::vector<std::string> kBody = {"vehicle/half_length_m", "vehicle/half_width_m",
                                                "vehicle/half_height_m"};
 
-inline bool says(const configuration::Overlay& overlay, const char* key) {
-  return overlay.said.count(key) != 0;
+inline bool givesOpening(const configuration::Overlay& overlay) {
+  return overlay.gives(kOpening[0]) && overlay.gives(kOpening[1]);
 }
 
-inline bool saysOpening(const configuration::Overlay& overlay) {
-  return says(overlay, kOpening[0]) && says(overlay, kOpening[1]);
+// "1.2 x 1 m"
+inline std::string sizeOf(const estimation::PoseParams& opening) {
+  return formatted("%g x %g m", opening.opening_width_m, opening.opening_height_m);
+}
+inline std::string sizeOf(const Eigen::Vector3d& half) {
+  return formatted("%g x %g x %g m", 2.0 * half.x(), 2.0 * half.y(), 2.0 * half.z());
+}
+inline std::string sizeOf(const navigation::VehicleParams& vehicle) {
+  return sizeOf(Eigen::Vector3d(vehicle.half_length_m, vehicle.half_width_m, vehicle.half_height_m));
 }
 
 /// What is missing of a size: `whole`, or the names of some of its keys; empty if nothing is.
-inline std::string missing(const configuration::Overlay& overlay, const std::vector<const char*>& keys,
-                           const char* whole) {
+inline std::string missing(const configuration::Overlay& overlay, const std::vector<std::string>& keys,
+                           const std::string& whole) {
   std::vector<std::string> names;
-  for (const char* key : keys)
-    if (!says(overlay, key)) names.emplace_back(key);
+  for (const std::string& key : keys)
+    if (!overlay.gives(key)) names.push_back(key);
   if (names.empty()) return "";
-  return names.size() == keys.size() ? std::string(whole) + " is missing"
-                                     : parameters::joined(names) + " is missing";
+  return (names.size() == keys.size() ? whole : parameters::joined(names)) + " is missing";
 }
 
 // A drone must not fly with the default window's size.
-inline void checkOpeningIsSaid(const configuration::Overlay& overlay, bool is_refused) {
+inline void checkOpeningIsGiven(const configuration::Overlay& overlay, bool is_refused) {
   const auto& pose = overlay.homography_pose.pose;
   const bool is_found_out = pose.scale_sigma > 0.0;  // measured in flight
-  if (is_found_out || saysOpening(overlay)) return;
-  const std::string said = missing(overlay, kOpening, "the opening's size") +
-                           ": measure it and give window_size:=W,H [m], or in the file of config:= "
-                           "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
-  if (is_refused) throw InputError(said);
-  warn(said + formatted("; assuming %g x %g m", pose.opening_width_m, pose.opening_height_m));
+  if (is_found_out || givesOpening(overlay)) return;
+  const std::string fault = missing(overlay, kOpening, "the opening's size") +
+                            ": measure it and give window_size:=W,H [m], or in the file of config:= "
+                            "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}";
+  if (is_refused) throw InputError(fault);
+  warn(fault + "; assuming " + sizeOf(pose));
 }
 
 // A side that is not given keeps the default window's value.
 inline void checkBothSides(const configuration::Overlay& overlay) {
-  const bool width = says(overlay, kOpening[0]), height = says(overlay, kOpening[1]);
+  const bool width = overlay.gives(kOpening[0]), height = overlay.gives(kOpening[1]);
   if (width == height) return;
   const auto& pose = overlay.homography_pose.pose;
-  warn(formatted("only one side of the opening is given: %s is missing, assuming %g m", kOpening[width],
-                 width ? pose.opening_height_m : pose.opening_width_m));
+  warn(formatted("only one side of the opening is given: %s is missing, assuming %g m",
+                 kOpening[width].c_str(), width ? pose.opening_height_m : pose.opening_width_m));
 }
 
 // A drone must not fly with the default vehicle's size either.
-inline void checkVehicleIsSaid(const configuration::Overlay& overlay) {
+inline void checkVehicleIsGiven(const configuration::Overlay& overlay) {
   const std::string what = missing(overlay, kBody, "the vehicle's size");
   if (what.empty()) return;
-  const auto& vehicle = overlay.vehicle;
-  warn(what + formatted(": assuming %g x %g x %g m; measure it, propellers included, "
-                        "and give in the file of config:= vehicle: "
-                        "{half_length_m: L, half_width_m: W, half_height_m: H}",
-                        2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m,
-                        2.0 * vehicle.half_height_m));
+  warn(what + ": assuming " + sizeOf(overlay.vehicle) +
+       "; measure it, propellers included, and give in the file of config:= vehicle: "
+       "{half_length_m: L, half_width_m: W, half_height_m: H}");
 }
 
 /// What flies in the simulated world: the sizes of the parameter file, else the world's.
 inline configuration::Overlay flownIn(const simulation::Scenario& scenario, const std::string& file) {
   configuration::Overlay overlay = configuration::readOverlay(file);
-  evaluation::tellSizes(scenario, overlay.said, overlay.vehicle, overlay.homography_pose.pose);
+  evaluation::tellSizes(scenario, overlay, overlay.vehicle, overlay.homography_pose.pose);
   return overlay;
 }
 
 // Detects width and height exchanged, or one of them misread. An oblique view differs by less.
 inline void checkAspect(double in_image, const estimation::PoseParams& opening) {
   constexpr double kMaxRatio = 1.25;
-  const double said = opening.opening_width_m / opening.opening_height_m;
-  if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
-  warn(
-      formatted("the opening, %g x %g m, is %.3g times as wide as it is high, but %.3g times in the "
-                "reference image: measure both sides and check the corners",
-                opening.opening_width_m, opening.opening_height_m, said, in_image));
+  const double given = opening.opening_width_m / opening.opening_height_m;
+  if (opening.scale_sigma > 0.0 || std::max(in_image / given, given / in_image) <= kMaxRatio) return;
+  warn("the opening, " + sizeOf(opening) +
+       formatted(", is %.3g times as wide as it is high, but %.3g times in the reference image: measure both "
+                 "sides and check the corners",
+                 given, in_image));
 }
 
 /// Takes the argument; warns where it overrides the file.
@@ -101,74 +103,54 @@ inline void overrideWindowSize(const std::string& text, const std::string& file,
   if (text.empty()) return;
   const auto size = numbers("window_size", text, 2);
   estimation::PoseParams& pose = overlay.homography_pose.pose;
-  const auto contradicts = [&](const char* key, double in_file, double given) {
-    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0 &&
-           std::abs(in_file - given) > 1e-9;
-  };
-  if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
-      contradicts("opening_height_m", pose.opening_height_m, size[1])) {
+  const bool contradicts = (overlay.gives(kOpening[0]) && std::abs(pose.opening_width_m - size[0]) > 1e-9) ||
+                           (overlay.gives(kOpening[1]) && std::abs(pose.opening_height_m - size[1]) > 1e-9);
+  if (contradicts)
     warn(formatted("window_size %s overrides %s, which says %g,%g", text.c_str(), file.c_str(),
                    pose.opening_width_m, pose.opening_height_m));
-  }
   takeWindowSize("window_size", text, pose);
-  overlay.said.insert(kOpening.begin(), kOpening.end());
+  overlay.given.insert(kOpening.begin(), kOpening.end());
+}
+
+/// A size of vehicle or opening. \param name as in a parameter file
+inline double sizeCalled(const std::string& name, configuration::Overlay overlay) {
+  for (const auto& keys : {kBody, kOpening})
+    if (std::find(keys.begin(), keys.end(), name) != keys.end())
+      return parameters::find(parameters::fieldsOf(overlay), name)->get();
+  throw InputError("--print " + name + ": not a size of vehicle or opening");
 }
 
 /// Where vehicle or opening in the file differ from the simulated world's; empty: nowhere.
 inline std::string otherSizes(configuration::Overlay overlay, const simulation::Scenario& scenario) {
-  evaluation::tellSizes(scenario, overlay.said, overlay.vehicle, overlay.homography_pose.pose);
-  const auto differs = [&](const char* key, double said, double fact) {
-    return overlay.said.count(key) != 0 && std::abs(said - fact) > 1e-6;
+  evaluation::tellSizes(scenario, overlay, overlay.vehicle, overlay.homography_pose.pose);
+  const auto differs = [&](const std::string& key, double fact) {
+    return overlay.gives(key) && std::abs(sizeCalled(key, overlay) - fact) > 1e-6;
   };
   const auto opening = scenario.opening();
   const Eigen::Vector3d half = scenario.vehicle.halfExtents();
-  const auto& vehicle = overlay.vehicle;
-  const auto& pose = overlay.homography_pose.pose;
   std::string text;
-  if (differs("vehicle/half_length_m", vehicle.half_length_m, half.x()) ||
-      differs("vehicle/half_width_m", vehicle.half_width_m, half.y()) ||
-      differs("vehicle/half_height_m", vehicle.half_height_m, half.z()))
-    text += formatted("a vehicle of %g x %g x %g m, the world has %g x %g x %g m",
-                      2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m,
-                      2.0 * half.x(), 2.0 * half.y(), 2.0 * half.z());
-  if (differs("homography_pose/pose/opening_width_m", pose.opening_width_m, opening.width_m) ||
-      differs("homography_pose/pose/opening_height_m", pose.opening_height_m, opening.height_m))
-    text += (text.empty() ? "" : "; ") + formatted("an opening of %g x %g m, the world has %g x %g m",
-                                                   pose.opening_width_m, pose.opening_height_m,
-                                                   opening.width_m, opening.height_m);
+  if (differs(kBody[0], half.x()) || differs(kBody[1], half.y()) || differs(kBody[2], half.z()))
+    text += "a vehicle of " + sizeOf(overlay.vehicle) + ", the world has " + sizeOf(half);
+  if (differs(kOpening[0], opening.width_m) || differs(kOpening[1], opening.height_m))
+    text += (text.empty() ? "" : "; ") + ("an opening of " + sizeOf(overlay.homography_pose.pose)) +
+            formatted(", the world has %g x %g m", opening.width_m, opening.height_m);
   return text.empty() ? ""
                       : "the file says " + text +
                             ": the navigator uses the file's sizes, the referee the world's; give a scenario "
                             "with your sizes (window, vehicle)";
 }
 
-/// \param name as in a parameter file
-inline double sizeCalled(const std::string& name, const configuration::Overlay& overlay) {
-  const auto& vehicle = overlay.vehicle;
-  const auto& pose = overlay.homography_pose.pose;
-  const std::map<std::string, double> sizes = {
-      {"vehicle/half_length_m", vehicle.half_length_m},
-      {"vehicle/half_width_m", vehicle.half_width_m},
-      {"vehicle/half_height_m", vehicle.half_height_m},
-      {"homography_pose/pose/opening_width_m", pose.opening_width_m},
-      {"homography_pose/pose/opening_height_m", pose.opening_height_m}};
-  if (const auto size = sizes.find(name); size != sizes.end()) return size->second;
-  throw InputError("--print " + name + ": not a size of vehicle or opening");
-}
-
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.
 inline std::string understood(const configuration::Overlay& overlay) {
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;
-  const std::string body =
-      formatted("a vehicle of %g x %g x %g m (length, width, height)", 2.0 * vehicle.half_length_m,
-                2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m);
+  const std::string body = "a vehicle of " + sizeOf(vehicle) + " (length, width, height)";
   if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
-  return body + formatted(" through %g x %g m%s: %.2f m free on each side, %.2f m above and below",
-                          pose.opening_width_m, pose.opening_height_m,
-                          saysOpening(overlay) ? "" : " (assumed: no size of the opening is given)",
-                          0.5 * pose.opening_width_m - vehicle.half_width_m,
-                          0.5 * pose.opening_height_m - vehicle.half_height_m);
+  const char* assumed = givesOpening(overlay) ? "" : " (assumed: no size of the opening is given)";
+  return body + " through " + sizeOf(pose) +
+         formatted("%s: %.2f m free on each side, %.2f m above and below", assumed,
+                   0.5 * pose.opening_width_m - vehicle.half_width_m,
+                   0.5 * pose.opening_height_m - vehicle.half_height_m);
 }
 
 inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
@@ -179,8 +161,8 @@ inline void checkFits(const navigation::VehicleParams& vehicle, const estimation
     return;
   throw InputError(
       formatted("the vehicle, %g x %g m (twice vehicle/half_width_m, half_height_m), does not fit "
-                "through the opening, %g x %g m, with %g m on each side (vehicle/margin_m): measure both",
-                width_m, height_m, opening.opening_width_m, opening.opening_height_m, vehicle.margin_m));
+                "through the opening, %s, with %g m on each side (vehicle/margin_m): measure both",
+                width_m, height_m, sizeOf(opening).c_str(), vehicle.margin_m));
 }
 
 }  // namespace window_ingress::tools

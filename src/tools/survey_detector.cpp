@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
@@ -80,12 +79,6 @@ evaluation::ViewRange rangeOf(const Options& o, int i) {
   return range;
 }
 
-void check(const Options& o) {
-  if (o.scenarios.empty() == o.folders.empty())
-    throw InputError("needs either --scenario or --load; see --help");
-  if (!o.folders.empty() && !o.save.empty()) throw InputError("--save has no use with --load");
-}
-
 /// Searches the window in one image after the other.
 class Survey {
  public:
@@ -95,8 +88,7 @@ class Survey {
         table_(binsOf(o)) {
     tools::makeFolder(o.output);
     if (!o.overlay.empty()) tools::makeFolder(o.overlay);
-    frames_.open(fs::path(o.output) / "frames.csv");
-    frames_ << evaluation::surveyColumns() << "\n";
+    frames_.open(fs::path(o.output) / "frames.csv", evaluation::surveyColumns());
   }
 
   void look(const evaluation::SurveyImage& sample) {
@@ -111,23 +103,21 @@ class Survey {
     frames_ << evaluation::surveyRow(result) << "\n";
     frames_.finish();
     table_.add(result);
-    if (!options_.overlay.empty() && !isRight(result.verdict)) draw(sample, result);
+    const bool is_right = result.verdict == evaluation::SurveyVerdict::kHit ||
+                          result.verdict == evaluation::SurveyVerdict::kNothing;
+    if (!options_.overlay.empty() && !is_right) draw(sample, result);
   }
 
   void finish() {
-    evaluation::OutputFile summary(fs::path(options_.output) / "summary.csv");
-    summary << table_.csv();
-    summary.finish();
+    evaluation::writeText(fs::path(options_.output) / "summary.csv", table_.csv());
     std::cout << table_.markdown();
   }
 
  private:
   static std::vector<evaluation::DistanceBin> binsOf(const Options& o) {
-    return o.at.empty() ? evaluation::defaultBins() : evaluation::binsAt(fixedDistances(o));
-  }
-
-  static bool isRight(evaluation::SurveyVerdict verdict) {
-    return verdict == evaluation::SurveyVerdict::kHit || verdict == evaluation::SurveyVerdict::kNothing;
+    std::vector<evaluation::DistanceBin> bins;
+    for (const double distance_m : fixedDistances(o)) bins.push_back({distance_m, distance_m});
+    return bins.empty() ? evaluation::kDefaultBins : bins;
   }
 
   void draw(const evaluation::SurveyImage& sample, const evaluation::SurveyResult& result) const {
@@ -158,30 +148,26 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
   return scenario;
 }
 
-void draw(const Options& o, const std::function<void(const evaluation::SurveyImage&)>& use) {
+void drawAndLook(const Options& o, Survey& survey) {
+  evaluation::SurveyFolder folder(o.save);
+  if (!o.save.empty()) tools::makeFolder(o.save);
   tools::Progress progress("survey_detector", "images", o.scenarios.size() * o.frames);
   for (const std::string& file : o.scenarios)
     for (int i = 0; i < o.frames; ++i) {
       const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(i);
       auto sample = evaluation::takeImage(load(file, seed, o), seed, rangeOf(o, i), !o.no_reference);
       sample.scenario = fs::path(file).stem().string();
-      use(sample);
+      if (!o.save.empty()) folder.add(sample);
+      survey.look(sample);
       progress.passed();
     }
-}
-
-void drawAndLook(const Options& o, Survey& survey) {
-  evaluation::SurveyFolder folder(o.save);
-  if (!o.save.empty()) tools::makeFolder(o.save);
-  draw(o, [&](const evaluation::SurveyImage& sample) {
-    if (!o.save.empty()) folder.add(sample);
-    survey.look(sample);
-  });
   if (!o.save.empty()) folder.writeTable();
 }
 
 int run(const Options& o) {
-  check(o);
+  if (o.scenarios.empty() == o.folders.empty())
+    throw InputError("needs either --scenario or --load; see --help");
+  if (!o.folders.empty() && !o.save.empty()) throw InputError("--save has no use with --load");
   Survey survey(o);
   for (const std::string& folder : o.folders)
     evaluation::SurveyFolder(folder).forEach([&](const auto& sample) { survey.look(sample); });

@@ -52,22 +52,19 @@ class AtWay {
  public:
   explicit AtWay(double share) : share_(share) {}
   void add(const std::vector<FilterSample>& run) {
-    for (const FilterSample& sample : run) {
-      if (sample.flown_m < share_ * run.back().flown_m) continue;
-      if (sample.trusted) {
-        nees_.push_back(sample.nees);
-        yaw_.push_back(std::abs(sample.yaw_error_rad) * 180.0 / M_PI);
-        position_.push_back(sample.position_error_m);
-        width_.push_back(std::abs(sample.width_error));
-        width_squares_ += std::pow(sample.width_error / sample.width_sigma, 2);
-      }
-      return;
-    }
+    const auto at = std::find_if(run.begin(), run.end(), [&](const FilterSample& sample) {
+      return sample.flown_m >= share_ * run.back().flown_m;
+    });
+    if (at == run.end() || !at->trusted) return;
+    nees_.push_back(at->nees);
+    yaw_.push_back(std::abs(at->yaw_error_rad) * 180.0 / M_PI);
+    position_.push_back(at->position_error_m);
+    width_.push_back(std::abs(at->width_error));
+    width_squares_ += std::pow(at->width_error / at->width_sigma, 2);
   }
   void print() const {
     if (nees_.empty()) return;
-    double mean = 0.0;
-    for (const double nees : nees_) mean += nees / static_cast<double>(nees_.size());
+    const double mean = evaluation::mean(nees_);
     const int count = static_cast<int>(nees_.size());
     const auto band = evaluation::chiSquaredBand(4, count);
     std::printf("%3.0f %% of the way | %4d | %.2f (%.2f .. %.2f) %s | %.2f | %.1f | %.2f / %.2f\n",
@@ -87,9 +84,10 @@ int survey(const Options& o) {
   if (o.size != "known" && o.size != "unknown") throw InputError("--size: known or unknown");
   const auto filter = configuration::readOverlay(o.params).homography_pose.filter;
   tools::makeFolder(o.output);
-  evaluation::OutputFile table(o.output + "/filter.csv");
-  table << "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_"
-           "yaw_deg,filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis\n";
+  evaluation::OutputFile table(
+      o.output + "/filter.csv",
+      "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_yaw_deg,"
+      "filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis");
   const SizeTold told = o.size == "known" ? SizeTold::kAll : SizeTold::kNothing;
   std::vector<AtWay> ways{AtWay(0.1), AtWay(0.25), AtWay(0.5), AtWay(0.75), AtWay(1.0)};
   double images = 0.0, nees = 0.0;
@@ -103,8 +101,7 @@ int survey(const Options& o) {
     estimation::TargetEstimator tracker(evaluation::poseParams(told), filter, {});
     const auto samples = evaluation::follow(approach, tracker, script.opening);
     for (const FilterSample& sample : samples) write(table, run, sample);
-    for (AtWay& way : ways)
-      if (!samples.empty()) way.add(samples);
+    for (AtWay& way : ways) way.add(samples);
     const auto mean = evaluation::meanNees(samples);
     nees += mean.value_or(0.0);
     trusted_runs += mean.has_value();

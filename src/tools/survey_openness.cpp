@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -103,14 +104,13 @@ std::size_t approaches(const Options& o) {
 
 class Survey {
  public:
-  explicit Survey(const Options& o) : options_(o), csv_(fs::path(o.output) / "openness.csv") {
-    csv_ << evaluation::opennessColumns() << "\n";
+  explicit Survey(const Options& o)
+      : options_(o), csv_(fs::path(o.output) / "openness.csv", evaluation::opennessColumns()) {
     const auto overlay = configuration::readOverlay(o.params);
     follower_ = overlay.window_detector.interior;
     params_ = overlay.homography_pose.tracker.openness;
-    if (o.trace.empty()) return;
-    trace_.open(o.trace);
-    trace_ << "kind,seed,plane_m,verdict,log_odds,depth_behind_m,open_share,reason\n";
+    if (!o.trace.empty())
+      trace_.open(o.trace, "kind,seed,plane_m,verdict,log_odds,depth_behind_m,open_share,reason");
   }
 
   void draw(const simulation::Scenario& scenario, std::uint32_t seed, const std::string& kind = "") {
@@ -118,14 +118,12 @@ class Survey {
     if (!kind.empty()) result.kind = kind;
     take(result);
   }
-  void synthesise(evaluation::Interior interior, std::uint32_t seed) {
-    take(evaluation::flySynthetic(interior, seed, options_.range, params_, tracer(seed)));
-  }
-  void lookThroughGlass(double reflectivity, std::uint32_t seed) {
+  void synthesise(evaluation::Interior interior, std::uint32_t seed,
+                  std::optional<double> reflectivity = {}) {
     evaluation::OpennessRange range = options_.range;
-    range.reflectivity = reflectivity;
-    auto result = evaluation::flySynthetic(evaluation::Interior::kGlass, seed, range, params_, tracer(seed));
-    result.kind += " " + std::to_string(std::lround(100.0 * reflectivity)) + " %";
+    range.reflectivity = reflectivity.value_or(range.reflectivity);
+    auto result = evaluation::flySynthetic(interior, seed, range, params_, tracer(seed));
+    if (reflectivity) result.kind += formatted(" %ld %%", std::lround(100.0 * *reflectivity));
     take(result);
   }
   int finish() {
@@ -181,7 +179,7 @@ int run(const Options& o) {
   }
   for (const double reflectivity : kReflectivities)
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.glass); ++i)
-      survey.lookThroughGlass(reflectivity, o.seed + i);
+      survey.synthesise(evaluation::Interior::kGlass, o.seed + i, reflectivity);
   return survey.finish();
 }
 

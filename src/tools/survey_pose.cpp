@@ -57,7 +57,7 @@ tools::OptionList describe(Options& o) {
 }
 
 evaluation::PoseSurveySetup setupOf(const Options& o) {
-  evaluation::PoseSurveySetup setup = evaluation::usualSetup();
+  evaluation::PoseSurveySetup setup;
   if (!o.camera.empty()) setup.camera = parameters::readCalibrationFile(o.camera);
   if (setup.camera.hasDistortion()) throw InputError(o.camera + ": needs a calibration without distortion");
   if (o.window_size.empty()) return setup;
@@ -73,8 +73,7 @@ int surveyNoise(const Options& o) {
   const auto yaws = tools::numbersWithin("--yaw", o.yaws, 0.0, 80.0);
   const auto noises = tools::numbersWithin("--noise", o.noises, 0.001, 10.0);
   tools::makeFolder(o.output);
-  evaluation::OutputFile table(fs::path(o.output) / "cells.csv");
-  table << evaluation::poseSurveyColumns() << "\n";
+  evaluation::OutputFile table(fs::path(o.output) / "cells.csv", evaluation::poseSurveyColumns());
   std::vector<evaluation::PoseCellResult> results;
   std::uint32_t seed = o.seed;
   for (const double noise : noises) {
@@ -93,62 +92,43 @@ int surveyNoise(const Options& o) {
   return 0;
 }
 
-/// Searches the window in one image after the other and estimates its pose.
-class Chain {
- public:
-  explicit Chain(const Options& o)
-      : options_(o),
-        detector_(configuration::readOverlay(o.params).window_detector.detector),
-        estimator_(poseParams(o)),
-        random_(o.seed) {}
-
-  void look(const evaluation::SurveyImage& sample) {
-    if (sample.reference.empty())
-      detector_.clearReference();
-    else
-      detector_.setReference(detection::ReferenceAppearance(sample.reference, sample.reference_corners));
-    const auto window = detector_.detect(sample.image, 0.0, &sample.camera);
-    results.push_back(evaluation::chainResult(sample, window, estimator_, gravityOf(sample)));
-  }
-
-  std::vector<evaluation::PoseChainResult> results;
-
- private:
-  static estimation::PoseParams poseParams(const Options& o) {
-    auto params = configuration::readOverlay(o.params).homography_pose.pose;
-    tools::takeWindowSize("--window-size", o.window_size, params);
-    return params;
-  }
-
-  std::optional<estimation::GravityPrior> gravityOf(const evaluation::SurveyImage& sample) {
-    if (!(options_.attitude_deg > 0.0)) return std::nullopt;
-    const auto truth = evaluation::poseOfTrueCorners(
-        sample.truth.inner, sample.camera,
-        {estimator_.params().opening_width_m, estimator_.params().opening_height_m});
-    if (!truth) return std::nullopt;
-    const double sigma = options_.attitude_deg * geometry::kRadPerDegree;
-    std::normal_distribution<double> noise(0.0, sigma);
-    const Eigen::Vector3d off(noise(random_), noise(random_), noise(random_));
-    return estimation::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma};
-  }
-
-  const Options& options_;
-  detection::WindowDetector detector_;
-  estimation::WindowPoseEstimator estimator_;
-  std::mt19937 random_;
-};
+// The attitude as an estimator with this error knows it; nothing if it is not to be known.
+std::optional<estimation::GravityPrior> gravityOf(const evaluation::SurveyImage& sample,
+                                                  const estimation::PoseParams& params, double sigma_rad,
+                                                  std::mt19937& random) {
+  if (!(sigma_rad > 0.0)) return std::nullopt;
+  const auto truth = evaluation::poseOfTrueCorners(sample.truth.inner, sample.camera,
+                                                   {params.opening_width_m, params.opening_height_m});
+  if (!truth) return std::nullopt;
+  std::normal_distribution<double> noise(0.0, sigma_rad);
+  const Eigen::Vector3d off(noise(random), noise(random), noise(random));
+  return estimation::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma_rad};
+}
 
 int surveyImages(const Options& o) {
   if (o.window_size.empty()) throw InputError("--load needs --window-size");
   tools::makeFolder(o.output);
-  Chain chain(o);
+  const auto overlay = configuration::readOverlay(o.params);
+  detection::WindowDetector detector(overlay.window_detector.detector);
+  estimation::PoseParams params = overlay.homography_pose.pose;
+  tools::takeWindowSize("--window-size", o.window_size, params);
+  const estimation::WindowPoseEstimator estimator(params);
+  std::mt19937 random(o.seed);
+  std::vector<evaluation::PoseChainResult> results;
   for (const std::string& folder : o.folders)
-    evaluation::SurveyFolder(folder).forEach([&](const auto& sample) { chain.look(sample); });
-  evaluation::OutputFile table(fs::path(o.output) / "pictures.csv");
-  table << evaluation::poseChainColumns() << "\n";
-  for (const auto& result : chain.results) table << evaluation::poseChainRow(result) << "\n";
+    evaluation::SurveyFolder(folder).forEach([&](const evaluation::SurveyImage& sample) {
+      if (sample.reference.empty())
+        detector.clearReference();
+      else
+        detector.setReference(detection::ReferenceAppearance(sample.reference, sample.reference_corners));
+      const auto window = detector.detect(sample.image, 0.0, &sample.camera);
+      const auto gravity = gravityOf(sample, params, o.attitude_deg * geometry::kRadPerDegree, random);
+      results.push_back(evaluation::chainResult(sample, window, estimator, gravity));
+    });
+  evaluation::OutputFile table(fs::path(o.output) / "pictures.csv", evaluation::poseChainColumns());
+  for (const auto& result : results) table << evaluation::poseChainRow(result) << "\n";
   table.finish();
-  std::cout << evaluation::poseChainTable(chain.results);
+  std::cout << evaluation::poseChainTable(results);
   return 0;
 }
 

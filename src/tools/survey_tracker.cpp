@@ -139,8 +139,7 @@ int run(const Options& o) {
   tools::Progress progress("survey_tracker", "flights", o.scenarios.size() * o.flights);
   for (const std::string& file : o.scenarios) {
     const std::string name = fs::path(file).stem().string();
-    evaluation::OutputFile table(fs::path(o.output) / (name + ".csv"));
-    table << evaluation::trackColumns() << "\n";
+    evaluation::OutputFile table(fs::path(o.output) / (name + ".csv"), evaluation::trackColumns());
     evaluation::TrackSummary summary;
     for (int i = 0; i < o.flights; ++i, progress.passed())
       Flight(file, o.seed + static_cast<std::uint32_t>(i), o).fly([&](const evaluation::TrackResult& result) {

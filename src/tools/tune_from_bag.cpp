@@ -93,22 +93,6 @@ Images read(const Job& job) {
   return samples;
 }
 
-/// Prints a line every two seconds.
-class Progress {
- public:
-  explicit Progress(int trials) : trials_(trials) {}
-  void operator()(int done, const DetectionCounts& best) {
-    const auto now = std::chrono::steady_clock::now();
-    if (done < trials_ && now - said_ < std::chrono::seconds(2)) return;
-    said_ = now;
-    std::fprintf(stderr, "tune_from_bag: %d of %d settings tried; best F1 %.3f\n", done, trials_, best.f1());
-  }
-
- private:
-  int trials_;
-  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
-};
-
 std::string diff(const detection::DetectorParams& start, const detection::DetectorParams& tuned) {
   detection::DetectorParams before = start, after = tuned;
   const auto old = fieldsOf(before), now = fieldsOf(after);
@@ -132,8 +116,15 @@ int run(const Job& job) {
   std::printf("%zu images to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(), held.size(),
               job.seed);
   const evaluation::TuningOptions search{namesOf(job.names), job.trials, job.seed};
-  const detection::DetectorParams tuned =
-      evaluation::tuneDetector(tuning, start, given, search, Progress(job.trials));
+  auto printed = std::chrono::steady_clock::now();
+  const auto progress = [&](int done, const DetectionCounts& best) {
+    const auto now = std::chrono::steady_clock::now();
+    if (done < job.trials && now - printed < std::chrono::seconds(2)) return;
+    printed = now;
+    std::fprintf(stderr, "tune_from_bag: %d of %d settings tried; best F1 %.3f\n", done, job.trials,
+                 best.f1());
+  };
+  const detection::DetectorParams tuned = evaluation::tuneDetector(tuning, start, given, search, progress);
 
   const DetectionCounts before = evaluation::countDetections(held, start, given);
   const DetectionCounts after = evaluation::countDetections(held, tuned, given);

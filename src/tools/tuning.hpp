@@ -39,12 +39,10 @@ class TuningSource {
 
 class StoredImages : public TuningSource {
  public:
-  void add(const std::string& name, const cv::Mat& image) {
-    names_.push_back(name), images_.push_back(image);
-  }
-  cv::Mat image() override { return images_[at_]; }
+  void add(const std::string& name, const cv::Mat& image) { images_.emplace_back(name, image); }
+  cv::Mat image() override { return images_[at_].second; }
   std::string name() override {
-    return names_[at_] + " (" + std::to_string(at_ + 1) + " of " + std::to_string(images_.size()) + ")";
+    return formatted("%s (%zu of %zu)", images_[at_].first.c_str(), at_ + 1, images_.size());
   }
   void step(int by) override {
     const auto size = static_cast<int>(images_.size());
@@ -54,8 +52,7 @@ class StoredImages : public TuningSource {
 
  private:
   std::size_t at_ = 0;
-  std::vector<std::string> names_;
-  std::vector<cv::Mat> images_;
+  std::vector<std::pair<std::string, cv::Mat>> images_;
 };
 
 class Camera : public TuningSource {

@@ -30,7 +30,7 @@ std::vector<detection::WindowObservation> drawnViews(const evaluation::PoseSurve
 
 class Pose : public benchmark::Fixture {
  public:
-  const evaluation::PoseSurveySetup setup = evaluation::usualSetup();
+  const evaluation::PoseSurveySetup setup;
   const std::vector<detection::WindowObservation> views = drawnViews(setup);
 
   template <typename Estimate>

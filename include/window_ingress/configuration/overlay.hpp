@@ -34,7 +34,8 @@ struct Overlay {
     field.group("world", self.world);
   }
 
-  std::set<std::string> said;  ///< paths of the keys in the last file: "vehicle/half_width_m"
+  std::set<std::string> given;  ///< paths of the keys in the last file: "vehicle/half_width_m"
+  bool gives(const std::string& key) const { return given.count(key) > 0; }
 };
 
 /// Replaces the values that a file gives; an empty name changes nothing. The pose node and the navigator get

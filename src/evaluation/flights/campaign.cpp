@@ -16,52 +16,6 @@ std::optional<std::uint32_t> parseNumber(const std::string& text) {
   return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 10));
 }
 
-/// Gives seeds to threads and passes results on in order.
-class Queue {
- public:
-  Queue(const std::vector<std::uint32_t>& seeds, const Fly& fly, const Report& report)
-      : seeds_(seeds), fly_(fly), report_(report), results_(seeds.size()) {}
-
-  void work() {
-    while (!failed_) {
-      const std::size_t index = next_++;
-      if (index >= seeds_.size()) return;
-      try {
-        deliver(index, fly_(seeds_[index]));
-      } catch (...) {
-        fail();
-      }
-    }
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  void deliver(std::size_t index, FlightResult result) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    results_[index] = std::move(result);
-    for (; reported_ < results_.size() && results_[reported_]; ++reported_) {
-      report_(*results_[reported_], static_cast<int>(reported_ + 1), static_cast<int>(seeds_.size()));
-    }
-  }
-  void fail() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!error_) error_ = std::current_exception();
-    failed_ = true;
-  }
-
-  const std::vector<std::uint32_t>& seeds_;
-  const Fly& fly_;
-  const Report& report_;
-  std::atomic<std::size_t> next_{0};
-  std::atomic<bool> failed_{false};
-  std::mutex mutex_;
-  std::vector<std::optional<FlightResult>> results_;
-  std::size_t reported_ = 0;
-  std::exception_ptr error_;
-};
-
 }  // namespace
 
 std::optional<std::vector<std::uint32_t>> parseSeeds(const std::string& text) {
@@ -98,13 +52,33 @@ std::string seedsText(const std::vector<std::uint32_t>& seeds) {
 }
 
 void flyAll(const std::vector<std::uint32_t>& seeds, int jobs, const Fly& fly, const Report& report) {
-  Queue queue(seeds, fly, report);
-  const int workers = std::max(1, std::min(jobs, static_cast<int>(seeds.size())));
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> failed{false};
+  std::mutex mutex;  // of all that follows
+  std::exception_ptr error;
+  std::vector<std::optional<FlightResult>> results(seeds.size());
+  std::size_t reported = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < seeds.size() && !failed; i = next++) {
+      try {
+        FlightResult result = fly(seeds[i]);
+        const std::lock_guard<std::mutex> lock(mutex);
+        results[i] = std::move(result);
+        for (; reported < results.size() && results[reported]; ++reported)
+          report(*results[reported], static_cast<int>(reported + 1), static_cast<int>(seeds.size()));
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!error) error = std::current_exception();
+        failed = true;
+      }
+    }
+  };
   std::vector<std::thread> threads;
-  for (int i = 1; i < workers; ++i) threads.emplace_back([&queue] { queue.work(); });
-  queue.work();
+  const int workers = std::min(jobs, static_cast<int>(seeds.size()));
+  for (int i = 1; i < workers; ++i) threads.emplace_back(work);
+  work();
   for (auto& thread : threads) thread.join();
-  queue.rethrow();
+  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace window_ingress::evaluation

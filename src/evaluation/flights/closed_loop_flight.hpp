@@ -22,9 +22,6 @@ struct FlightParams : configuration::Overlay {
   bool without_images = false;  ///< `ProjectedDetector` detects the window, no image is rendered
 };
 
-/// The parameters, completed by what is known of the vehicle and its target before the flight.
-FlightParams withFactsOf(const simulation::World& world, FlightParams params);
-
 /// Stages of a closed-loop flight whose time is measured.
 enum class Stage { kPhysics, kImage, kDetector, kPose, kNavigator, kOther };
 constexpr std::size_t kStages = 6;

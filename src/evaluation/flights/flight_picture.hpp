@@ -10,16 +10,9 @@
 
 namespace window_ingress::evaluation {
 
-/// The opening as the plots show it.
-struct WallOutline {
-  double opening_width_m = 1.2;
-  double opening_height_m = 1.0;
-  double thickness_m = 0.26;
-};
-
 /// All tracks, seen from above (upper part) and from the right side (lower part), coloured by outcome, in the
-/// window's frame: the wall at x = 0, outside at x < 0. CV_8UC3.
-cv::Mat drawTracks(const std::vector<FlightResult>& flights, const WallOutline& wall,
+/// window's frame: the scenario's wall at x = 0, outside at x < 0. CV_8UC3.
+cv::Mat drawTracks(const std::vector<FlightResult>& flights, const simulation::Scenario& scenario,
                    const std::string& title);
 
 /// Keeps camera images with the detector's drawing on them: the first of each state of the navigator, and the
@@ -33,7 +26,7 @@ class FlightStrip : public FlightObserver {
   void onStep(const FlightRecord& record, const navigation::NavigatorOutput& output) override;
 
   /// All kept images with time and state, below the flight's track. CV_8UC3; empty if there was no image.
-  cv::Mat draw(const FlightResult& flight, const WallOutline& wall) const;
+  cv::Mat draw(const FlightResult& flight, const simulation::Scenario& scenario) const;
 
  private:
   struct Picture {

@@ -7,23 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/csv.hpp"
+#include "evaluation/statistics.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
-bool hasPassed(const FlightResult& flight) { return flight.outcome == simulation::Outcome::kPassed; }
-
 using simulation::Outcome;
 
-std::string number(const std::optional<double>& value, const char* pattern = "%.4f") {
-  if (!value) return "";
-  return formatted(pattern, *value);
-}
+std::string number(const std::optional<double>& value) { return value ? formatted("%.4f", *value) : ""; }
 
 std::optional<double> numberIfAny(const CsvReader& row, std::size_t column) {
-  if (row.text(column).empty()) return std::nullopt;
-  return row.number(column);
+  return row.text(column).empty() ? std::nullopt : std::optional(row.number(column));
 }
 
 std::uint32_t seedOf(const CsvReader& row) {
@@ -66,12 +61,6 @@ FlightResult flightOf(const CsvReader& row) {
   return flight;
 }
 
-/// The text as one field of one line.
-std::string lineOf(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return csvField(text);
-}
-
 std::string targetOf(const FlightRecord& record) {
   if (!record.has_target) return std::string(8, ',');
   return formatted(",%d,%.3f,%.4f,%.4f,%.4f,%.5f,%.4f,%.5f", record.sign_trusted ? 1 : 0,
@@ -88,55 +77,46 @@ std::string imageOf(const FlightRecord& record) {
                    image.left_side_px, image.right_side_px);
 }
 
-std::string withoutCommas(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
+std::string replaced(std::string text, char old, char by) {
+  std::replace(text.begin(), text.end(), old, by);
   return text;
 }
 
 }  // namespace
 
-FlightSummary summarise(const std::vector<FlightResult>& flights) {
-  FlightSummary summary;
+std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts& facts) {
+  std::map<std::string, int> outcomes, causes;
   std::vector<double> times, offsets, wrong_sides;
   for (const auto& flight : flights) {
     const std::string outcome = toString(flight.outcome);
-    ++summary.outcomes[outcome];
+    ++outcomes[outcome];
     wrong_sides.push_back(flight.wrong_side_m);
-    if (hasPassed(flight)) times.push_back(flight.time_sec);
-    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + withoutNumbers(flight.reason)];
-    if (flight.offset_y_m && flight.offset_z_m) {
+    if (flight.outcome == Outcome::kPassed)
+      times.push_back(flight.time_sec);
+    else
+      ++causes[outcome + ": " + withoutNumbers(flight.reason)];
+    if (flight.offset_y_m && flight.offset_z_m)
       offsets.push_back(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)));
-    }
   }
-  summary.flights = static_cast<int>(flights.size());
-  summary.passed = static_cast<int>(times.size());
-  summary.pass_rate_95 = wilson95(summary.passed, summary.flights);
-  summary.median_time_sec = quantile(times, 0.5);
-  summary.p95_time_sec = quantile(times, 0.95);
-  summary.p95_offset_m = quantile(offsets, 0.95);
-  summary.p95_wrong_side_m = quantile(wrong_sides, 0.95);
-  return summary;
-}
-
-std::string toJson(const FlightSummary& summary, const CampaignFacts& facts) {
-  nlohmann::json json;
-  json["scenario"] = facts.scenario;
-  json["seeds"] = facts.seeds;
-  json["draws"] = facts.draws;
-  json["params"] = facts.params;
-  json["pictures"] = facts.with_images;
-  json["version"] = facts.version;
-  json["flights"] = summary.flights;
-  json["passed"] = summary.passed;
-  json["pass_rate"] = summary.flights > 0 ? static_cast<double>(summary.passed) / summary.flights : 0.0;
-  json["pass_rate_low_95"] = summary.pass_rate_95.low;
-  json["pass_rate_high_95"] = summary.pass_rate_95.high;
-  json["outcomes"] = summary.outcomes;
-  json["causes"] = summary.causes;
-  json["median_time_s"] = summary.median_time_sec;
-  json["p95_time_s"] = summary.p95_time_sec;
-  json["p95_offset_m"] = summary.p95_offset_m;
-  json["p95_wrong_side_m"] = summary.p95_wrong_side_m;
+  const int all = static_cast<int>(flights.size()), passed = static_cast<int>(times.size());
+  const Interval rate = wilson95(passed, all);
+  const nlohmann::json json{{"scenario", facts.scenario},
+                            {"seeds", facts.seeds},
+                            {"draws", facts.draws},
+                            {"params", facts.params},
+                            {"pictures", facts.with_images},
+                            {"version", facts.version},
+                            {"flights", all},
+                            {"passed", passed},
+                            {"pass_rate", static_cast<double>(passed) / std::max(1, all)},
+                            {"pass_rate_low_95", rate.low},
+                            {"pass_rate_high_95", rate.high},
+                            {"outcomes", outcomes},
+                            {"causes", causes},
+                            {"median_time_s", quantile(times, 0.5)},
+                            {"p95_time_s", quantile(times, 0.95)},
+                            {"p95_offset_m", quantile(offsets, 0.95)},
+                            {"p95_wrong_side_m", quantile(wrong_sides, 0.95)}};
   return json.dump(2) + "\n";
 }
 
@@ -146,11 +126,11 @@ std::string csvHeader() {
 }
 
 std::string csvRow(const FlightResult& flight) {
-  return std::to_string(flight.seed) + "," + toString(flight.outcome) + "," +
-         number(flight.time_sec, "%.3f") + "," + number(flight.offset_y_m) + "," + number(flight.offset_z_m) +
-         "," + number(flight.min_clearance_m) + "," + number(flight.wrong_side_m) + "," +
-         number(flight.max_speed_mps) + "," + number(flight.blind_sec, "%.3f") + "," +
-         number(flight.predicted_miss_m) + "," + lineOf(flight.reason) + "," + number(flight.nearest_m);
+  return formatted("%u,%s,%.3f,", flight.seed, toString(flight.outcome), flight.time_sec) +
+         number(flight.offset_y_m) + "," + number(flight.offset_z_m) + "," + number(flight.min_clearance_m) +
+         formatted(",%.4f,%.4f,%.3f,", flight.wrong_side_m, flight.max_speed_mps, flight.blind_sec) +
+         number(flight.predicted_miss_m) + "," + csvField(replaced(flight.reason, '\n', ' ')) +
+         formatted(",%.4f", flight.nearest_m);
 }
 
 std::string trackHeader() { return "seed,time_s,x_m,y_m,z_m"; }
@@ -216,7 +196,7 @@ void writeCsv(const FlightLog& log, std::ostream& out) {
                      r.setpoint_mps.y(), r.setpoint_mps.z(), r.setpoint_yaw_rate_radps, r.detected ? 1 : 0)
         << targetOf(r) << imageOf(r) << ","
         << (r.predicted_miss_m > 0.0 ? formatted("%.4f", r.predicted_miss_m) : "") << ","
-        << withoutCommas(r.sighting) << "," << withoutCommas(r.reason) << "\n";
+        << replaced(r.sighting, ',', ';') << "," << replaced(r.reason, ',', ';') << "\n";
 }
 
 }  // namespace window_ingress::evaluation

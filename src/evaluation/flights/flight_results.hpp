@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "evaluation/flights/flight_observer.hpp"
-#include "evaluation/statistics.hpp"
 #include "simulation/referee.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
@@ -42,20 +41,6 @@ struct FlightResult {
   std::vector<TrackPoint> track;  ///< ten points a second
 };
 
-struct FlightSummary {
-  int flights = 0;
-  int passed = 0;
-  Interval pass_rate_95;                ///< Wilson
-  std::map<std::string, int> outcomes;  ///< by name
-  std::map<std::string, int> causes;    ///< outcome and reason of all flights but PASSED, without numbers
-  double median_time_sec = 0.0;         ///< of the flights that passed
-  double p95_time_sec = 0.0;
-  double p95_offset_m = 0.0;      ///< larger of |y| and |z|, of the flights that crossed the plane
-  double p95_wrong_side_m = 0.0;  ///< of all flights
-};
-
-FlightSummary summarise(const std::vector<FlightResult>& flights);
-
 /// Inputs of a campaign, sufficient to repeat it with the same build.
 struct CampaignFacts {
   std::string scenario;  ///< file as given, like all of these
@@ -66,8 +51,11 @@ struct CampaignFacts {
   std::string version;  ///< of the package
 };
 
-/// The summary as json text, keys in a fixed order.
-std::string toJson(const FlightSummary& summary, const CampaignFacts& facts);
+/// Summary of a campaign as json text, keys in a fixed order: the facts; the number of flights, those that
+/// passed, and their rate with its 95 % Wilson interval; counts by outcome, and by outcome and reason without
+/// numbers (`causes`, of all flights but PASSED); median and 95 % quantile of the time of those that passed;
+/// 95 % quantiles of the larger of |y| and |z| where the plane was crossed, and of `wrong_side_m`.
+std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts& facts);
 
 /// Header of flights.csv, without the end of the line.
 std::string csvHeader();

@@ -1,21 +1,17 @@
 /// Sizes that the operator of a simulated flight would measure and give.
 #pragma once
 
-#include <set>
-#include <string>
-
 #include "simulation/scenario/scenario.hpp"
-#include "window_ingress/estimation/pose_params.hpp"
-#include "window_ingress/navigation/vehicle_params.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace window_ingress::evaluation {
 
-/// Sets the sizes of vehicle and opening to the scenario's, except those in `said` (names as in a parameter
-/// file). An opening whose size is to be estimated in flight keeps its values.
-inline void tellSizes(const simulation::Scenario& scenario, const std::set<std::string>& said,
+/// Sets the sizes of vehicle and opening to the scenario's, except those that the user's file gives. An
+/// opening whose size is to be estimated in flight keeps its values.
+inline void tellSizes(const simulation::Scenario& scenario, const configuration::Overlay& file,
                       navigation::VehicleParams& vehicle, estimation::PoseParams& pose) {
-  const auto tell = [&](const char* name, double& value, double fact) {
-    if (said.count(name) == 0) value = fact;
+  const auto tell = [&](const char* key, double& value, double fact) {
+    if (!file.gives(key)) value = fact;
   };
   const Eigen::Vector3d half = scenario.vehicle.halfExtents();
   tell("vehicle/half_length_m", vehicle.half_length_m, half.x());

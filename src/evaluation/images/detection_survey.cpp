@@ -32,38 +32,34 @@ std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Qu
 
 std::string missesOf(const SurveySummary& summary) {
   std::string text;
-  for (const auto& [reason, count] : summary.misses())
+  for (const auto& [reason, count] : summary.misses)
     text += (text.empty() ? "" : " ") + reason + ":" + std::to_string(count);
   return text;
 }
 
 std::string found(const std::string& name, const SurveySummary& s) {
-  std::string text = "| " + name + " | " + std::to_string(s.frames());
+  std::string text = "| " + name + " | " + std::to_string(s.frames);
   for (int i = 0; i < kSurveyVerdicts; ++i)
-    text += " | " + formatted("%.1f", 100.0 * s.part(static_cast<SurveyVerdict>(i)));
-  text += " | " + formatted("%.1f", 100.0 * s.innerPart());
-  return text + " | " + missesOf(s) + " | " + formatted("%.2f", s.medianMilliseconds()) + " |\n";
+    text += formatted(" | %.1f", 100.0 * s.part(static_cast<SurveyVerdict>(i)));
+  return text + formatted(" | %.1f | %s | %.2f |\n", 100.0 * s.innerPart(), missesOf(s).c_str(),
+                          quantile(s.milliseconds, 0.5));
 }
 
 std::string exactness(const std::string& name, const SurveySummary& s) {
   std::string text = "| " + name;
-  for (std::size_t bin = 0; bin < s.bins().size(); ++bin) {
-    const CornerStatistics& c = s.corners(bin);
+  for (const CornerStatistics& c : s.corners) {
     text += " | " + std::to_string(c.frames());
-    if (c.frames() == 0) {
-      text += " | | | |";
-      continue;
-    }
-    text += formatted(" | %.3f, %.3f | %+.3f, %+.3f | %+.3f | %.3f", c.rms().x(), c.rms().y(), c.mean().x(),
-                      c.mean().y(), c.outward(), c.median());
+    text += c.frames() == 0 ? " | | | |"
+                            : formatted(" | %.3f, %.3f | %+.3f, %+.3f | %+.3f | %.3f", c.rms().x(),
+                                        c.rms().y(), c.mean().x(), c.mean().y(), c.outward(), c.median());
   }
   return text + " |\n";
 }
 
-std::string rule(int columns) {
-  std::string text = "|";
-  for (int i = 0; i < columns; ++i) text += "---|";
-  return text + "\n";
+double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
+  double sum = 0.0;
+  for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
+  return 0.25 * sum;
 }
 
 }  // namespace
@@ -78,7 +74,9 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   if (!truth.present) return found ? SurveyVerdict::kFalseAlarm : SurveyVerdict::kNothing;
   if (!found) return SurveyVerdict::kMissed;
   const Quadrilateral* nearest = &truth.inner;
-  SurveyVerdict border = SurveyVerdict::kInexact;
+  SurveyVerdict border = geometry::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner)
+                             ? SurveyVerdict::kHit
+                             : SurveyVerdict::kInexact;
   const auto consider = [&](const Quadrilateral& other, SurveyVerdict verdict) {
     if (meanCornerDistance(*found, other) >= meanCornerDistance(*found, *nearest)) return;
     nearest = &other;
@@ -86,22 +84,13 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   };
   if (truth.outer) consider(*truth.outer, SurveyVerdict::kOuterBorder);
   consider(truth.far, SurveyVerdict::kFarBorder);
-  if (geometry::intersectionOverUnion(*found, *nearest) < kOtherWindowIou) return SurveyVerdict::kWrongTarget;
-  if (border != SurveyVerdict::kInexact) return border;
-  return geometry::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit
-                                                                                    : border;
+  return geometry::intersectionOverUnion(*found, *nearest) < kOtherWindowIou ? SurveyVerdict::kWrongTarget
+                                                                             : border;
 }
 
 SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
                       const detection::DetectionTrace& trace, double milliseconds) {
-  SurveyResult result;
-  result.scenario = sample.scenario;
-  result.seed = sample.seed;
-  result.distance_m = sample.distance_m;
-  result.off_axis_rad = sample.off_axis_rad;
-  result.milliseconds = milliseconds;
-  result.truth = sample.truth;
-  result.window = window;
+  SurveyResult result{sample, milliseconds, window};
   const bool whole = window && window->whole();
   result.verdict = judge(whole ? std::make_optional(window->corners) : std::nullopt, sample.truth);
   result.outcome = window ? "found" : std::string(detection::toString(trace.outcome)) + ": " + trace.detail;
@@ -127,9 +116,8 @@ std::string surveyRow(const SurveyResult& result) {
   if (window && result.truth.present)
     text += formatted("%.3f", geometry::furthestCorner(window->corners, result.truth.inner));
   text += window ? csvCorners(window->corners, "%.4f") : ",,,,,,,,";
-  text += csvCorners(result.truth.inner, "%.4f");
-  return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
-         formatted("%.3f", result.milliseconds);
+  return text + csvCorners(result.truth.inner, "%.4f") + "," + csvField(result.outcome) + "," +
+         result.true_candidate + formatted(",%.3f", result.milliseconds);
 }
 
 std::string DistanceBin::name() const {
@@ -137,33 +125,18 @@ std::string DistanceBin::name() const {
   return (nearest_m == farthest_m ? nearest : nearest + "-" + formatted("%g", farthest_m)) + " m";
 }
 
-std::vector<DistanceBin> defaultBins() { return {{2.0, 3.0}, {3.0, 5.0}, {5.0, 8.0}}; }
-
-std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m) {
-  std::vector<DistanceBin> bins;
-  for (const double distance_m : distances_m) bins.push_back({distance_m, distance_m});
-  return bins;
-}
-
-std::size_t SurveySummary::binOf(double distance_m) const {
+void SurveySummary::add(const SurveyResult& result) {
+  ++frames;
+  ++counts[static_cast<int>(result.verdict)];
+  milliseconds.push_back(result.milliseconds);
+  if (result.verdict == SurveyVerdict::kMissed) ++misses[result.true_candidate];
+  if (result.verdict != SurveyVerdict::kHit || bins.empty()) return;
   const auto away = [&](const DistanceBin& bin) {
-    return std::max({0.0, bin.nearest_m - distance_m, distance_m - bin.farthest_m});
+    return std::max({0.0, bin.nearest_m - result.distance_m, result.distance_m - bin.farthest_m});
   };
   const auto nearer = [&](const DistanceBin& a, const DistanceBin& b) { return away(a) < away(b); };
-  return static_cast<std::size_t>(std::min_element(bins_.begin(), bins_.end(), nearer) - bins_.begin());
-}
-
-void SurveySummary::add(const SurveyResult& result) {
-  ++frames_;
-  ++counts_[static_cast<int>(result.verdict)];
-  milliseconds_.push_back(result.milliseconds);
-  if (result.verdict == SurveyVerdict::kMissed) ++misses_[result.true_candidate];
-  if (result.verdict != SurveyVerdict::kHit) return;
-  if (!bins_.empty()) corners_[binOf(result.distance_m)].add(result.window->corners, result.truth.inner);
-}
-
-double SurveySummary::part(SurveyVerdict verdict) const {
-  return frames_ > 0 ? static_cast<double>(count(verdict)) / frames_ : 0.0;
+  const auto bin = std::min_element(bins.begin(), bins.end(), nearer) - bins.begin();
+  corners[static_cast<std::size_t>(bin)].add(result.window->corners, result.truth.inner);
 }
 
 double SurveySummary::innerPart() const {
@@ -171,8 +144,6 @@ double SurveySummary::innerPart() const {
   const int borders = inner + count(SurveyVerdict::kOuterBorder) + count(SurveyVerdict::kFarBorder);
   return borders > 0 ? static_cast<double>(inner) / borders : 1.0;
 }
-
-double SurveySummary::medianMilliseconds() const { return quantile(milliseconds_, 0.5); }
 
 void SurveyTable::add(const SurveyResult& result) {
   const auto is_same = [&](const auto& entry) { return entry.first == result.scenario; };
@@ -192,32 +163,31 @@ std::string SurveyTable::csv() const {
       text += "," + std::string(column) + "_" + bin.name();
   text += ",milliseconds\n";
   for (const auto& [name, s] : scenarios_) {
-    text += name + "," + std::to_string(s.frames());
-    for (int i = 0; i < kSurveyVerdicts; ++i)
-      text += "," + std::to_string(s.count(static_cast<SurveyVerdict>(i)));
+    text += name + "," + std::to_string(s.frames);
+    for (const int count : s.counts) text += "," + std::to_string(count);
     text += "," + missesOf(s);
-    for (std::size_t bin = 0; bin < s.bins().size(); ++bin) {
-      const CornerStatistics& c = s.corners(bin);
+    for (const CornerStatistics& c : s.corners) {
       text += "," + std::to_string(c.frames());
       for (const double value :
            {c.rms().x(), c.rms().y(), c.mean().x(), c.mean().y(), c.outward(), c.median()})
-        text += "," + formatted("%.4f", value);
+        text += formatted(",%.4f", value);
     }
-    text += "," + formatted("%.3f", s.medianMilliseconds()) + "\n";
+    text += formatted(",%.3f\n", quantile(s.milliseconds, 0.5));
   }
   return text;
 }
 
 std::string SurveyTable::markdown() const {
-  std::string text = "| scenario | frames";
+  std::string head = "| scenario | frames";
   for (int i = 0; i < kSurveyVerdicts; ++i)
-    text += std::string(" | ") + toString(static_cast<SurveyVerdict>(i)) + " %";
-  text += " | inner border % | missed: the true candidate's end | median ms |\n" + rule(kSurveyVerdicts + 5);
+    head += std::string(" | ") + toString(static_cast<SurveyVerdict>(i)) + " %";
+  std::string text =
+      markdownHead(head + " | inner border % | missed: the true candidate's end | median ms |");
   for (const auto& [name, summary] : scenarios_) text += found(name, summary);
-  text += "\n| scenario";
+  head = "| scenario";
   for (const DistanceBin& bin : bins_)
-    text += " | hits at " + bin.name() + " | RMS x, y px | mean x, y px | outward px | median px";
-  text += " |\n" + rule(1 + 5 * static_cast<int>(bins_.size()));
+    head += " | hits at " + bin.name() + " | RMS x, y px | mean x, y px | outward px | median px";
+  text += "\n" + markdownHead(head + " |");
   for (const auto& [name, summary] : scenarios_) text += exactness(name, summary);
   return text;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -33,16 +34,13 @@ const char* toString(SurveyVerdict verdict);
 SurveyVerdict judge(const std::optional<geometry::Quadrilateral>& found, const SurveyTruth& truth);
 
 /// One image of the survey.
-struct SurveyResult {
-  std::string scenario;
-  std::uint32_t seed = 0;
-  double distance_m = 0.0, off_axis_rad = 0.0, milliseconds = 0.0;
-  SurveyTruth truth;
+struct SurveyResult : SurveySubject {
+  double milliseconds = 0.0;
   std::optional<detection::WindowObservation> window;
   SurveyVerdict verdict = SurveyVerdict::kMissed;
-  std::string outcome;  ///< outcome of the whole image, for people
+  std::string outcome = {};  ///< outcome of the whole image, for people
   /// Gate that rejected the best candidate on the inner border; "unseen" if there is none.
-  std::string true_candidate;
+  std::string true_candidate = {};
 };
 
 SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
@@ -56,44 +54,31 @@ struct DistanceBin {
   double nearest_m, farthest_m;
   std::string name() const;  ///< "2-3 m", or "2 m"
 };
-std::vector<DistanceBin> defaultBins();                                   ///< 2 to 3, 3 to 5 and 5 to 8 m
-std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m);  ///< one bin each
+const std::vector<DistanceBin> kDefaultBins{{2.0, 3.0}, {3.0, 5.0}, {5.0, 8.0}};
 
 /// One scenario, or all of them.
-class SurveySummary {
- public:
-  explicit SurveySummary(const std::vector<DistanceBin>& bins) : bins_(bins), corners_(bins.size()) {}
+struct SurveySummary {
+  explicit SurveySummary(const std::vector<DistanceBin>& in_bins) : bins(in_bins), corners(bins.size()) {}
 
   void add(const SurveyResult& result);
-  int frames() const { return frames_; }
-  int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
-  double part(SurveyVerdict verdict) const;  ///< 0 to 1
+  int count(SurveyVerdict verdict) const { return counts[static_cast<int>(verdict)]; }
+  double part(SurveyVerdict verdict) const { return 1.0 * count(verdict) / std::max(1, frames); }  ///< 0 to 1
   /// Part with the inner border among the frames in which any border of the window was found; 1 if there are
   /// none.
   double innerPart() const;
-  /// Corners of the hits whose distance is nearest to the i-th bin.
-  const CornerStatistics& corners(std::size_t bin) const { return corners_.at(bin); }
-  const std::vector<DistanceBin>& bins() const { return bins_; }
-  const std::map<std::string, int>& misses() const {
-    return misses_;
-  }  ///< by the gate that rejected the true candidate
-  double medianMilliseconds() const;
 
- private:
-  std::size_t binOf(double distance_m) const;
-
-  int frames_ = 0;
-  std::array<int, kSurveyVerdicts> counts_{};
-  std::vector<DistanceBin> bins_;
-  std::vector<CornerStatistics> corners_;
-  std::map<std::string, int> misses_;
-  std::vector<double> milliseconds_;
+  int frames = 0;
+  std::array<int, kSurveyVerdicts> counts{};
+  std::vector<DistanceBin> bins;
+  std::vector<CornerStatistics> corners;  ///< of the hits whose distance is nearest to the i-th bin
+  std::map<std::string, int> misses;      ///< by the gate that rejected the true candidate
+  std::vector<double> milliseconds;
 };
 
 /// Scenarios in the order of arrival.
 class SurveyTable {
  public:
-  explicit SurveyTable(const std::vector<DistanceBin>& bins = defaultBins()) : bins_(bins) {}
+  explicit SurveyTable(const std::vector<DistanceBin>& bins = kDefaultBins) : bins_(bins) {}
   void add(const SurveyResult& result);
   std::string csv() const;       ///< one row per scenario
   std::string markdown() const;  ///< the same in two tables: detections, and accuracy

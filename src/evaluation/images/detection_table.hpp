@@ -17,17 +17,14 @@ struct DetectionRow {
   double milliseconds = 0.0;
 };
 
-/// Names of the columns after the first, separated by commas:
-/// detected,score,bhattacharyya,x1,y1,...,y4,reject_reason,qx,qy,qz,qw,tx,ty,tz,yaw_sigma_rad,ambiguity,milliseconds.
-/// `ambiguity` is the odds of the other planar solution against the reported one, 0 (none) to 1 (equally
-/// likely).
+/// Names of the columns after the first, separated by commas. `ambiguity` is the odds of the other planar
+/// solution against the reported one, 0 (none) to 1 (equally likely).
 std::string detectionColumns();
 
 /// The values of these columns; empty if there is no value, or for a corner not seen. No line end.
 std::string detectionValues(const DetectionRow& row);
 
-/// Columns of a table of all candidates, after the image's name:
-/// rank,proposed,source,reason,value,limit,score,bhattacharyya,x1,y1,...,x4,y4. `rank` is the final rank, the
+/// Columns of a table of all candidates, after the image's name. `rank` is the final rank, the
 /// target first. `proposed` is the rank given by the search before any comparison; it is empty for candidates
 /// rejected by the gates or located afterwards. Both count from 1.
 std::string candidateColumns();

@@ -28,65 +28,45 @@ std::string groupOf(const std::string& file) {
   return stem;
 }
 
-/// Reads annotations by the names of their columns.
-class Annotations {
- public:
-  explicit Annotations(const std::string& file) : rows_(file) {
-    for (std::size_t i = 0; i < rows_.columns().size(); ++i) column_[rows_.columns()[i]] = i;
-    for (const char* needed : {"file", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"})
-      if (column_.count(needed) == 0) rows_.fail("no column '" + std::string(needed) + "'");
-  }
+using Targets = std::vector<geometry::Quadrilateral>;
 
-  /// By file.
-  std::map<std::string, std::vector<geometry::Quadrilateral>> targets() {
-    std::map<std::string, std::vector<geometry::Quadrilateral>> targets;
-    while (rows_.next())
-      if (!rows_.line().empty() && cell("label").rfind("pose_only_", 0) != 0) {
-        auto& of_file = targets[cell("file")];
-        if (!cell("x1").empty()) of_file.push_back(corners());
-      }
-    return targets;
-  }
-
- private:
-  std::string cell(const std::string& name) const {
-    const auto at = column_.find(name);
-    return at == column_.end() ? std::string() : rows_.text(at->second);
-  }
-  double number(const std::string& name) const {
-    const double value = rows_.number(column_.at(name));
-    if (!std::isfinite(value)) rows_.fail("'" + cell(name) + "' is not a number");
+// Reads annotations by the names of their columns. \return the targets of each file
+std::map<std::string, Targets> annotationsIn(const std::string& csv_file) {
+  CsvReader rows(csv_file);
+  std::map<std::string, std::size_t> column;
+  for (std::size_t i = 0; i < rows.columns().size(); ++i) column[rows.columns()[i]] = i;
+  for (const char* needed : {"file", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"})
+    if (column.count(needed) == 0) rows.fail("no column '" + std::string(needed) + "'");
+  const auto number = [&](const std::string& name) {
+    const double value = rows.number(column[name]);
+    if (!std::isfinite(value)) rows.fail("'" + rows.text(column[name]) + "' is not a number");
     return value;
-  }
-  geometry::Quadrilateral corners() const {
+  };
+  std::map<std::string, Targets> targets;
+  while (rows.next()) {
+    const bool is_left_out =
+        column.count("label") > 0 && rows.text(column["label"]).rfind("pose_only_", 0) == 0;
+    if (rows.line().empty() || is_left_out) continue;
+    Targets& of_file = targets[rows.text(column["file"])];
+    if (rows.text(column["x1"]).empty()) continue;
     geometry::Quadrilateral quad;
     for (int i = 0; i < 4; ++i)
       quad[i] = {number("x" + std::to_string(i + 1)), number("y" + std::to_string(i + 1))};
     const auto canonical = geometry::canonical(quad);
-    if (!canonical) rows_.fail("the corners are not a convex quadrilateral");
-    return *canonical;
+    if (!canonical) rows.fail("the corners are not a convex quadrilateral");
+    of_file.push_back(*canonical);
   }
+  return targets;
+}
 
-  CsvReader rows_;
-  std::map<std::string, std::size_t> column_;
-};
-
-std::string rate(const char* name, double value, int part, int all) {
+std::string rate(const char* name, int part, int all) {
   if (all == 0) return std::string(name) + " unknown (0 of 0)";
-  const Interval interval = wilson95(part, all);
-  return formatted("%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * value, 100.0 * interval.low,
-                   100.0 * interval.high, part, all);
+  const auto [low, high] = wilson95(part, all);
+  return formatted("%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * (static_cast<double>(part) / all),
+                   100.0 * low, 100.0 * high, part, all);
 }
 
 }  // namespace
-
-double DetectionCounts::recall() const {
-  return found + missed == 0 ? 1.0 : static_cast<double>(found) / (found + missed);
-}
-
-double DetectionCounts::precision() const {
-  return found + wrong == 0 ? 1.0 : static_cast<double>(found) / (found + wrong);
-}
 
 double DetectionCounts::f1() const {
   const int all = 2 * found + missed + wrong;
@@ -96,8 +76,7 @@ double DetectionCounts::f1() const {
 double DetectionCounts::merit() const { return f1() + kOverlapPart * overlap / std::max(1, found + missed); }
 
 std::string DetectionCounts::text() const {
-  return rate("recall", recall(), found, found + missed) + ", " +
-         rate("precision", precision(), found, found + wrong);
+  return rate("recall", found, found + missed) + ", " + rate("precision", found, found + wrong);
 }
 
 DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
@@ -123,7 +102,7 @@ DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
 
 std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder) {
   std::vector<LabelledImage> samples;
-  for (const auto& [file, targets] : Annotations(csv_file).targets()) {
+  for (const auto& [file, targets] : annotationsIn(csv_file)) {
     const std::string path = (std::filesystem::path(folder) / file).string();
     samples.push_back({groupOf(file), imageOrNone(path), targets, std::nullopt});
     if (samples.back().image.empty())

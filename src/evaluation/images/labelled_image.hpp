@@ -29,9 +29,7 @@ struct DetectionCounts {
   int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed` count images with a target
   double overlap = 0.0;                  ///< sum of the overlaps of the found ones
 
-  double recall() const;     ///< 1 if there is nothing to find
-  double precision() const;  ///< 1 if nothing was detected
-  double f1() const;         ///< harmonic mean of both
+  double f1() const;  ///< harmonic mean of recall and precision
   /// Merit for the search: `f1` plus a small share for better corners.
   double merit() const;
   /// "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision ..." with 95 % Wilson intervals

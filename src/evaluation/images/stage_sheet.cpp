@@ -48,13 +48,11 @@ cv::Scalar colourOfDirection(const Eigen::Vector2d& normal) {
 template <typename Segments>
 cv::Mat drawSegments(const cv::Mat& level, const Segments& segments) {
   Canvas canvas(level);
-  const auto pixel = [](const Eigen::Vector2d& p) {
-    const Eigen::Vector2d zoomed = Canvas::at(p);
-    return cv::Point2d(zoomed.x(), zoomed.y());
-  };
-  for (const auto& segment : segments)
-    cv::line(canvas.image, pixel(segment.a), pixel(segment.b), colourOfDirection(segment.normal), 2,
-             cv::LINE_AA);
+  for (const auto& segment : segments) {
+    const Eigen::Vector2d a = Canvas::at(segment.a), b = Canvas::at(segment.b);
+    cv::line(canvas.image, cv::Point2d(a.x(), a.y()), cv::Point2d(b.x(), b.y()),
+             colourOfDirection(segment.normal), 2, cv::LINE_AA);
+  }
   return canvas.image;
 }
 
@@ -76,10 +74,10 @@ cv::Mat drawQuads(const cv::Mat& level, const std::vector<detection::Candidate>&
   return canvas.image;
 }
 
-cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace, int& count) {
+void addPassed(const cv::Mat& image, const detection::DetectionTrace& trace, ContactSheet& sheet) {
   cv::Mat canvas = coloured(image);
   canvas.convertTo(canvas, -1, kBackground);
-  count = 0;
+  int count = 0;
   for (const auto& candidate : trace.candidates) {
     if (candidate.score <= 0.0) continue;
     ++count;
@@ -87,15 +85,7 @@ cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace,
         candidate.reject == detection::RejectReason::kNone ? kGreen : detection::colourOf(candidate.reject);
     detection::drawQuad(canvas, candidate.quad, colour, std::max(1, canvas.cols / 640));
   }
-  return canvas;
-}
-
-void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const detection::EdgeMap& map,
-              const DetectorParams& params, ContactSheet& sheet) {
-  sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
-  sheet.add(detection::cannyEdges(image, params.edges).edges, "P3 edges without preprocessing");
-  sheet.add(map.edges,
-            cv::format("P2, P3 edges of the search level, %d x %d", level.image.cols, level.image.rows));
+  sheet.add(canvas, cv::format("P8, P9 passed the gates on shape (%d)", count));
 }
 
 void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet& sheet) {
@@ -104,7 +94,10 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
   detection::SegmentQuads quads(params.segment_quads);
   const detection::SearchLevel level = detection::preprocess(image, params.preprocess);
   const detection::EdgeMap map = detection::cannyEdges(level.image, params.edges);
-  addEdges(image, level, map, params, sheet);
+  sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
+  sheet.add(detection::cannyEdges(image, params.edges).edges, "P3 edges without preprocessing");
+  sheet.add(map.edges,
+            cv::format("P2, P3 edges of the search level, %d x %d", level.image.cols, level.image.rows));
   // Without a calibration the image counts as free of distortion.
   const auto& segments = lines.run(runs.run(map, nullptr), level.image.size());
   sheet.add(drawSegments(level.image, segments),
@@ -125,25 +118,19 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
             cv::format("P4, P7 quadrilaterals of segments (%d)", static_cast<int>(found.candidates.size())));
 }
 
-void drawTarget(const detection::WindowObservation& window, cv::Mat& canvas) {
-  detection::drawQuad(canvas, window.corners, kGreen, std::max(2, canvas.cols / 320));
-  const Eigen::Vector2d centre = geometry::centroid(window.corners);
-  cv::circle(canvas, cv::Point2d(centre.x(), centre.y()), std::max(3, canvas.cols / 120),
-             cv::Scalar(0, 255, 255), cv::FILLED, cv::LINE_AA);
-}
-
 void addResult(const cv::Mat& image, const DetectorParams& params,
                const detection::ReferenceAppearance* reference, ContactSheet& sheet) {
   detection::WindowDetector detector(params);
   if (reference) detector.setReference(*reference);
   const auto window = detector.detect(image, 0.0);
-  int count = 0;
-  const cv::Mat passed = drawPassed(image, detector.trace(), count);
-  sheet.add(passed, cv::format("P8, P9 passed the gates on shape (%d)", count));
+  addPassed(image, detector.trace(), sheet);
   cv::Mat result = coloured(image);
   std::string caption = "P10 no target: " + detector.trace().detail;
   if (window) {
-    drawTarget(*window, result);
+    detection::drawQuad(result, window->corners, kGreen, std::max(2, result.cols / 320));
+    const Eigen::Vector2d centre = geometry::centroid(window->corners);
+    cv::circle(result, cv::Point2d(centre.x(), centre.y()), std::max(3, result.cols / 120),
+               cv::Scalar(0, 255, 255), cv::FILLED, cv::LINE_AA);
     caption = cv::format("P10 the target, score %.2f", window->score);
     if (window->has_appearance)
       caption += cv::format(", distance to the reference %.2f", window->bhattacharyya);

@@ -1,6 +1,6 @@
 #include "evaluation/images/survey_folder.hpp"
 
-#include <filesystem>
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 
 #include "evaluation/output_file.hpp"
@@ -21,8 +21,6 @@ std::string columns() {
   return text;
 }
 
-std::string numbers(const Quadrilateral& quad) { return csvCorners(quad, "%.9f"); }
-
 Quadrilateral quadrilateral(const CsvReader& row, std::size_t column) {
   Quadrilateral quad;
   for (int i = 0; i < 4; ++i) quad[i] = {row.number(column + 2 * i), row.number(column + 2 * i + 1)};
@@ -33,11 +31,13 @@ std::string rowOf(const SurveyImage& sample) {
   const SurveyTruth& truth = sample.truth;
   Quadrilateral none;
   none.fill(Eigen::Vector2d::Zero());
-  return sample.scenario +
-         formatted(",%u,%.6f,%.6f,%d,%d,%d", sample.seed, sample.distance_m, sample.off_axis_rad,
-                   truth.present, truth.outer.has_value(), !sample.reference.empty()) +
-         numbers(truth.inner) + numbers(truth.outer.value_or(none)) + numbers(truth.far) +
-         numbers(sample.reference.empty() ? none : sample.reference_corners);
+  std::string text = sample.scenario + formatted(",%u,%.6f,%.6f,%d,%d,%d", sample.seed, sample.distance_m,
+                                                 sample.off_axis_rad, truth.present, truth.outer.has_value(),
+                                                 !sample.reference.empty());
+  for (const Quadrilateral& quad : {truth.inner, truth.outer.value_or(none), truth.far,
+                                    sample.reference.empty() ? none : sample.reference_corners})
+    text += csvCorners(quad, "%.9f");
+  return text;
 }
 
 std::string calibrationOf(const geometry::PinholeCamera& camera) {
@@ -60,28 +60,24 @@ std::string calibrationOf(const geometry::PinholeCamera& camera) {
 }  // namespace
 
 std::string SurveyFolder::fileOf(const SurveyImage& sample, const std::string& ending) const {
-  return (std::filesystem::path(folder_) / (sample.scenario + "_" + std::to_string(sample.seed) + ending))
-      .string();
+  return folder_ + "/" + sample.scenario + "_" + std::to_string(sample.seed) + ending;
 }
 
 void SurveyFolder::add(const SurveyImage& sample) {
   writeImage(fileOf(sample, ".png"), sample.image, kFast);
   if (!sample.reference.empty()) writeImage(fileOf(sample, ".reference.png"), sample.reference, kFast);
-  OutputFile calibration(fileOf(sample, ".camera.yaml"));
-  calibration << calibrationOf(sample.camera);
-  calibration.finish();
+  writeText(fileOf(sample, ".camera.yaml"), calibrationOf(sample.camera));
   rows_.push_back(rowOf(sample));
 }
 
 void SurveyFolder::writeTable() const {
-  OutputFile table(std::filesystem::path(folder_) / "truth.csv");
-  table << columns() << "\n";
+  OutputFile table(folder_ + "/truth.csv", columns());
   for (const std::string& row : rows_) table << row << "\n";
   table.finish();
 }
 
 void SurveyFolder::forEach(const std::function<void(const SurveyImage&)>& use) const {
-  CsvReader rows((std::filesystem::path(folder_) / "truth.csv").string(), columns());
+  CsvReader rows(folder_ + "/truth.csv", columns());
   while (rows.nextWhole()) use(load(rows));
 }
 

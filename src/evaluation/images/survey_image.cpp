@@ -23,9 +23,7 @@ constexpr double kInFront_m = 0.004;  // of the border: the line of sight must r
 constexpr int kPointsOfSide = 4;
 
 Vector3d spread(RandomStream& random, double sigma) {
-  const auto one = [&] { return std::clamp(random.normal(sigma), -2.0 * sigma, 2.0 * sigma); };
-  const double x = one(), y = one();
-  return {x, y, one()};
+  return random.normals(sigma).cwiseMax(-2.0 * sigma).cwiseMin(2.0 * sigma);
 }
 
 Vector3d positionOf(const simulation::Vertex& vertex) {
@@ -49,9 +47,9 @@ bool isFree(const simulation::Mesh& mesh, const Vector3d& eye, const Vector3d& p
   const Vector3d way = point - eye;
   for (const auto& [batch, vertices] : mesh.batches())
     for (std::size_t i = 0; i + 3 < vertices.size(); i += 4) {
-      const Vector3d a = positionOf(vertices[i]), b = positionOf(vertices[i + 1]);
-      const Vector3d c = positionOf(vertices[i + 2]), d = positionOf(vertices[i + 3]);
-      if (crosses(eye, way, a, b, c) || crosses(eye, way, a, c, d)) return false;
+      const Vector3d a = positionOf(vertices[i]), c = positionOf(vertices[i + 2]);
+      if (crosses(eye, way, a, positionOf(vertices[i + 1]), c)) return false;
+      if (crosses(eye, way, a, c, positionOf(vertices[i + 3]))) return false;
     }
   return true;
 }

@@ -7,7 +7,6 @@
 
 #include "simulation/camera/camera_truth.hpp"
 #include "simulation/scenario/scenario.hpp"
-#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -17,8 +16,7 @@ namespace window_ingress::evaluation {
 
 /// Viewpoints of a survey. All values are uniformly distributed between their limits.
 struct ViewRange {
-  double nearest_m = 2.0,
-         farthest_m = 8.0;  ///< horizontal distance of the camera from the opening's centre [m]
+  double nearest_m = 2.0, farthest_m = 8.0;  ///< horizontal distance from the opening's centre [m]
   double off_axis_rad = 0.7853981633974483;  ///< largest angle to either side of the opening's normal [rad]
   double margin_px = 4.0;                    ///< least distance of the opening from the image's border [px]
   bool still = false;                        ///< the camera does not move
@@ -62,12 +60,16 @@ std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, con
                                        const geometry::PinholeCamera& camera,
                                        const simulation::CameraTruth& motion);
 
-/// One image with its truth.
-struct SurveyImage {
+/// What one image of a survey shows.
+struct SurveySubject {
   std::string scenario;  ///< file name without folder and extension
   std::uint32_t seed = 0;
   double distance_m = 0.0, off_axis_rad = 0.0;
   SurveyTruth truth;
+};
+
+/// One image with its truth.
+struct SurveyImage : SurveySubject {
   geometry::PinholeCamera camera;
   cv::Mat image;
   cv::Mat reference;  ///< the reference image; empty if there is none

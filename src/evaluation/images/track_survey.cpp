@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluation/csv.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/images/truth_comparison.hpp"
 #include "evaluation/statistics.hpp"
@@ -33,23 +34,11 @@ double lengthWithin(const Vector2d& from, const Vector2d& to, const geometry::Pi
   return std::max(0.0, last - first) * way.norm();
 }
 
-TrackVerdict verdictOfWhole(const TrackResult& result) {
-  switch (judge(std::make_optional(result.window->corners), result.truth)) {
-    case SurveyVerdict::kHit:
-      return TrackVerdict::kWhole;
-    case SurveyVerdict::kOuterBorder:
-      return TrackVerdict::kOuter;
-    case SurveyVerdict::kFarBorder:
-      return TrackVerdict::kFar;
-    default:
-      return TrackVerdict::kWrong;
-  }
-}
-
-TrackVerdict verdictOf(const TrackResult& result) {
-  if (!result.window) return TrackVerdict::kNothing;
-  if (result.window->whole()) return verdictOfWhole(result);
-  return result.error_px <= hitTolerance(result.truth.inner) ? TrackVerdict::kPartial : TrackVerdict::kWrong;
+TrackVerdict verdictOfWhole(const geometry::Quadrilateral& corners, const SurveyTruth& truth) {
+  const SurveyVerdict verdict = judge(corners, truth);
+  if (verdict == SurveyVerdict::kHit) return TrackVerdict::kWhole;
+  if (verdict == SurveyVerdict::kOuterBorder) return TrackVerdict::kOuter;
+  return verdict == SurveyVerdict::kFarBorder ? TrackVerdict::kFar : TrackVerdict::kWrong;
 }
 
 }  // namespace
@@ -83,12 +72,17 @@ int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCam
 
 void judge(TrackResult& result, const geometry::PinholeCamera& camera) {
   result.sides_in_view = sidesInView(result.truth.inner, camera);
+  result.verdict = TrackVerdict::kNothing;
   result.error_px = 0.0;
-  if (result.window)
-    result.error_px = result.window->whole()
-                          ? geometry::furthestCorner(result.window->corners, result.truth.inner)
-                          : worstSideDistance(*result.window, result.truth.inner, camera);
-  result.verdict = verdictOf(result);
+  if (!result.window) return;
+  const auto& truth = result.truth.inner;
+  if (result.window->whole()) {
+    result.error_px = geometry::furthestCorner(result.window->corners, truth);
+    result.verdict = verdictOfWhole(result.window->corners, result.truth);
+  } else {
+    result.error_px = worstSideDistance(*result.window, truth, camera);
+    result.verdict = result.error_px <= hitTolerance(truth) ? TrackVerdict::kPartial : TrackVerdict::kWrong;
+  }
 }
 
 std::string trackColumns() {
@@ -107,12 +101,8 @@ std::string trackRow(const TrackResult& result) {
   return text + formatted(",%.3f", result.milliseconds);
 }
 
-int TrackSummary::count(std::size_t range, TrackVerdict verdict) const {
-  return ranges_.at(range).counts[static_cast<int>(verdict)];
-}
-
 void TrackSummary::add(const TrackResult& result) {
-  if (flights_ == 0 || result.seed != seed_) ++flights_, target_id_ = 0;
+  if (result.seed != seed_) target_id_ = 0;
   seed_ = result.seed;
   if (result.window) {
     swaps_ += target_id_ != 0 && result.window->target_id != target_id_;
@@ -130,32 +120,30 @@ void TrackSummary::add(const TrackResult& result) {
 }
 
 std::string TrackSummary::markdownHeader() {
-  std::string text = "| scenario | to the plane | frames";
+  std::string head = "| scenario | to the plane | frames";
   for (int i = 0; i < kTrackVerdicts; ++i)
-    text += std::string(" | ") + toString(static_cast<TrackVerdict>(i)) + " %";
-  text +=
-      " | corner RMS x, y px | outward px | worst side, median px | following, median ms | number swaps |\n|";
-  for (int i = 0; i < kTrackVerdicts + 8; ++i) text += "---|";
-  return text + "\n";
+    head += std::string(" | ") + toString(static_cast<TrackVerdict>(i)) + " %";
+  return markdownHead(
+      head +
+      " | corner RMS x, y px | outward px | worst side, median px | following, median ms | number swaps |");
 }
 
 std::string TrackSummary::markdown(const std::string& name) const {
+  const auto median = [](const std::vector<double>& values) {
+    return " | " + (values.empty() ? "" : formatted("%.3f", quantile(values, 0.5)));
+  };
   std::string text;
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const Range& range = ranges_[i];
-    text += "| " + name + " | " +
-            (i == 0 ? "over " + formatted("%g m", kFrom_m[0])
-                    : formatted("%g to %g m", kFrom_m[i - 1], kFrom_m[i])) +
-            " | " + std::to_string(range.frames);
-    for (const int count : range.counts)
-      text += " | " + formatted("%.1f", 100.0 * count / std::max(1, range.frames));
-    const bool has_corners = range.corners.frames() > 0;
-    text += has_corners ? formatted(" | %.3f, %.3f | %+.3f", range.corners.rms().x(), range.corners.rms().y(),
-                                    range.corners.outward())
-                        : " | | ";
+    const auto& [frames, counts, corners, side_errors_px, following_ms] = ranges_[i];
     text +=
-        " | " + (range.side_errors_px.empty() ? "" : formatted("%.3f", quantile(range.side_errors_px, 0.5)));
-    text += " | " + (range.following_ms.empty() ? "" : formatted("%.3f", quantile(range.following_ms, 0.5)));
+        "| " + name + " | " +
+        (i == 0 ? formatted("over %g m", kFrom_m[0]) : formatted("%g to %g m", kFrom_m[i - 1], kFrom_m[i])) +
+        " | " + std::to_string(frames);
+    for (const int count : counts) text += formatted(" | %.1f", 100.0 * count / std::max(1, frames));
+    text += corners.frames() > 0
+                ? formatted(" | %.3f, %.3f | %+.3f", corners.rms().x(), corners.rms().y(), corners.outward())
+                : " | | ";
+    text += median(side_errors_px) + median(following_ms);
     text += " | " + (i == 0 ? std::to_string(swaps_) : "") + " |\n";
   }
   return text;

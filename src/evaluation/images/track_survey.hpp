@@ -54,12 +54,14 @@ std::string trackRow(const TrackResult& result);  ///< no line end
 /// One scenario. Frames count if at least two sides show, or if something wrong was found.
 class TrackSummary {
  public:
-  static constexpr std::array<double, 4> kFrom_m{3.0, 1.5, 0.8, 0.0};  ///< lower bounds of the ranges of the
-                                                                       ///< plane's distance
+  /// Lower bounds of the ranges of the plane's distance.
+  static constexpr std::array<double, 4> kFrom_m{3.0, 1.5, 0.8, 0.0};
 
   void add(const TrackResult& result);  ///< flight by flight, frame by frame
   int frames(std::size_t range) const { return ranges_.at(range).frames; }
-  int count(std::size_t range, TrackVerdict verdict) const;
+  int count(std::size_t range, TrackVerdict verdict) const {
+    return ranges_.at(range).counts[static_cast<int>(verdict)];
+  }
   std::string markdown(const std::string& name) const;
   static std::string markdownHeader();
 
@@ -73,7 +75,6 @@ class TrackSummary {
 
   std::array<Range, kFrom_m.size()> ranges_;
   int swaps_ = 0;  // frames in which the target's number changed
-  int flights_ = 0;
   std::uint32_t seed_ = 0, target_id_ = 0;
 };
 

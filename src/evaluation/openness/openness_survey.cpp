@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "evaluation/csv.hpp"
 #include "evaluation/openness/openness_approach.hpp"
 #include "evaluation/statistics.hpp"
 #include "simulation/camera/camera_sensor.hpp"
@@ -13,8 +14,8 @@ namespace window_ingress::evaluation {
 namespace {
 
 std::string rate(int count, int trials) {
-  const Interval interval = wilson95(count, trials);
-  return formatted("%d (%.2f .. %.2f %%)", count, 100.0 * interval.low, 100.0 * interval.high);
+  const auto [low, high] = wilson95(count, trials);
+  return formatted("%d (%.2f .. %.2f %%)", count, 100.0 * low, 100.0 * high);
 }
 
 }  // namespace
@@ -66,9 +67,9 @@ void OpennessTable::add(const OpennessResult& result) {
 }
 
 std::string OpennessTable::markdown() const {
-  std::string out =
+  std::string out = markdownHead(
       "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever "
-      "CLOSED | OPEN from, median m | ms an image |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "CLOSED | OPEN from, median m | ms an image |");
   for (const auto& [kind, row] : rows_)
     out += formatted("| %s | %s | %d | %s | %s | %d | %d | %d | %s | %.3f |\n", kind.c_str(),
                      row.is_open ? "open" : "not open", row.flights, rate(row.open, row.flights).c_str(),
@@ -92,12 +93,10 @@ std::string opennessColumns() {
 
 std::string opennessRow(const OpennessResult& result) {
   const auto& v = result.at_decision;
-  return result.kind + formatted(",%d,%.3f,%u,", result.is_open, result.room_m, result.seed) +
-         openness::toString(v.openness) +
-         formatted(",%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.3f,", v.log_odds, v.depth_behind_m, v.depth_sigma_m,
-                   v.open_share, v.stretches, v.points, result.ever_open, result.ever_closed,
-                   result.open_from_m) +
-         "\"" + v.reason + "\"";
+  return formatted("%s,%d,%.3f,%u,%s,%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.3f,\"%s\"", result.kind.c_str(),
+                   result.is_open, result.room_m, result.seed, openness::toString(v.openness), v.log_odds,
+                   v.depth_behind_m, v.depth_sigma_m, v.open_share, v.stretches, v.points, result.ever_open,
+                   result.ever_closed, result.open_from_m, v.reason.c_str());
 }
 
 }  // namespace window_ingress::evaluation

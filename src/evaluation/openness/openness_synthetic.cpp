@@ -29,10 +29,9 @@ class Surfaces {
     is_board_plain_ = random.uniform(0.0, 1.0) < 0.5;
     depth_m_ = random.uniform(1.0, 6.0);
     half_width_m_ = random.uniform(1.0, 3.0);
-    for (auto& thing : things_) {
+    for (auto& thing : things_)
       thing = {random.uniform(0.4, 1.0) * depth_m_, random.uniform(-1.5, 1.0), random.uniform(0.3, 1.2),
                random.uniform(-1.5, -0.3), random.uniform(0.4, 1.5)};
-    }
   }
 
   double roomM() const { return depth_m_; }
@@ -126,9 +125,9 @@ class SyntheticFollower {
   double roomM() const { return surfaces_.roomM(); }
 
   void follow(const Eigen::Isometry3d& T_window_camera, detection::WindowObservation& window) {
-    if (has_key_) report(T_window_camera, window);
+    if (key_side_px_ > 0.0) report(T_window_camera, window);
     const double side_px = std::sqrt(geometry::signedArea(window.corners));
-    const bool worn_out = !has_key_ || side_px > kGrowth * key_side_px_ ||
+    const bool worn_out = side_px > kGrowth * key_side_px_ ||
                           window.stamp_sec - tracks_.key_stamp_sec > kOldest_sec ||
                           window.interior.points.size() < kShared * static_cast<double>(points_.size());
     if (worn_out) takeKey(T_window_camera, window, side_px);
@@ -148,7 +147,6 @@ class SyntheticFollower {
 
   void takeKey(const Eigen::Isometry3d& T_window_camera, const detection::WindowObservation& window,
                double side_px) {
-    has_key_ = true;
     key_side_px_ = side_px;
     tracks_.key_stamp_sec = window.stamp_sec;
     tracks_.key_corners = window.corners;
@@ -203,8 +201,7 @@ class SyntheticFollower {
   RandomStream random_;
   Surfaces surfaces_;
   int count_;
-  double wrong_part_, key_side_px_ = 1.0;
-  bool has_key_ = false;
+  double wrong_part_, key_side_px_ = 0.0;  ///< 0: no keyframe yet
   detection::InteriorTracks tracks_;
   std::vector<Point> points_;
 };

@@ -1,7 +1,6 @@
 #include "evaluation/poses/filter_survey.hpp"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -12,12 +11,11 @@ namespace {
 constexpr double kEndM = 1.6;
 constexpr double kScaleSigma = 0.5, kAspectSigma = 0.3;  // of an unknown size
 
+// Of x, y, z and yaw.
 Eigen::Matrix4d uprightCovariance(const estimation::Matrix6d& covariance) {
-  constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
   Eigen::Matrix4d block;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      block(row, column) = covariance(kUpright[row], kUpright[column]);
+  block << covariance.topLeftCorner<3, 3>(), covariance.block<3, 1>(0, 5), covariance.block<1, 3>(5, 0),
+      covariance(5, 5);
   return block;
 }
 
@@ -88,14 +86,10 @@ std::vector<FilterSample> follow(SyntheticApproach& approach, estimation::Target
 }
 
 std::optional<double> meanNees(const std::vector<FilterSample>& samples) {
-  double sum = 0.0, count = 0.0;
-  for (const FilterSample& sample : samples) {
-    if (!sample.trusted) continue;
-    sum += sample.nees;
-    count += 1.0;
-  }
-  if (count < 1.0) return std::nullopt;
-  return sum / count;
+  std::vector<double> nees;
+  for (const FilterSample& sample : samples)
+    if (sample.trusted) nees.push_back(sample.nees);
+  return nees.empty() ? std::nullopt : std::optional(mean(nees));
 }
 
 // Sums of chi squared numbers are chi squared; by Wilson and Hilferty its cube root is nearly normal.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "estimation/planar/relative_yaw.hpp"
+#include "evaluation/csv.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
@@ -53,31 +55,12 @@ const char* const kSides[] = {"top", "right", "bottom", "left"};
 
 using Group = std::vector<const PoseChainResult*>;
 
-std::map<int, Group> byDistance(const std::vector<PoseChainResult>& results) {
-  std::map<int, Group> groups;
-  for (const PoseChainResult& result : results)
-    groups[static_cast<int>(std::lround(result.distance_m))].push_back(&result);
-  return groups;
-}
-
-double rms(const std::vector<double>& values) {
-  double squares = 0.0;
-  for (const double value : values) squares += value * value;
-  return std::sqrt(squares / std::max<std::size_t>(1, values.size()));
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / std::max<std::size_t>(1, values.size());
-}
-
 double medianMagnitude(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
   return quantile(values, 0.5);
 }
 
-std::string poseRow(int distance_m, const Group& group) {
+std::string poseRow(long distance_m, const Group& group) {
   std::vector<double> yaw, lateral, distance, normalised;
   int detected = 0, trusted = 0, wrong = 0, trusted_wrong = 0;
   for (const PoseChainResult* r : group) {
@@ -91,12 +74,12 @@ std::string poseRow(int distance_m, const Group& group) {
     wrong += r->wrong_sign;
     trusted_wrong += r->wrong_sign && r->estimate->sign_trusted;
   }
-  return formatted("| %d | %zu | %d | %zu | %.4f | %.4f | %.3f | %.3f | %.2f | %d | %d | %d |\n", distance_m,
+  return formatted("| %ld | %zu | %d | %zu | %.4f | %.4f | %.3f | %.3f | %.2f | %d | %d | %d |\n", distance_m,
                    group.size(), detected, yaw.size(), rms(yaw), medianMagnitude(yaw), rms(lateral),
                    rms(distance), std::pow(rms(normalised), 2), trusted, wrong, trusted_wrong);
 }
 
-std::string borderRow(int distance_m, int side, const Group& group) {
+std::string borderRow(long distance_m, int side, const Group& group) {
   std::vector<double> offset, ends, offset_sigmas, turn_sigmas;
   for (const PoseChainResult* r : group) {
     if (!r->borders[side]) continue;
@@ -106,10 +89,11 @@ std::string borderRow(int distance_m, int side, const Group& group) {
     turn_sigmas.push_back(r->borders[side]->turn_sigmas);
   }
   if (offset.empty()) return "";
-  return formatted("| %d | %s | %zu | %.4f | %+.4f | %.4f | %.4f | %.2f | %.2f | %.2f | %.2f |\n", distance_m,
-                   kSides[side], offset.size(), rms(offset), mean(offset), medianMagnitude(offset), rms(ends),
-                   std::pow(rms(offset_sigmas), 2), std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2),
-                   std::pow(rms(turn_sigmas), 2), std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
+  return formatted("| %ld | %s | %zu | %.4f | %+.4f | %.4f | %.4f | %.2f | %.2f | %.2f | %.2f |\n",
+                   distance_m, kSides[side], offset.size(), rms(offset), mean(offset),
+                   medianMagnitude(offset), rms(ends), std::pow(rms(offset_sigmas), 2),
+                   std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2), std::pow(rms(turn_sigmas), 2),
+                   std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
 }
 
 }  // namespace
@@ -145,10 +129,7 @@ PoseChainResult chainResult(const SurveyImage& sample,
                             const std::optional<detection::WindowObservation>& window,
                             const estimation::WindowPoseEstimator& estimator,
                             const std::optional<estimation::GravityPrior>& gravity) {
-  PoseChainResult out;
-  out.scenario = sample.scenario;
-  out.seed = sample.seed;
-  out.distance_m = sample.distance_m;
+  PoseChainResult out{sample};
   const geometry::OpeningSize opening{estimator.params().opening_width_m,
                                       estimator.params().opening_height_m};
   const auto truth = poseOfTrueCorners(sample.truth.inner, sample.camera, opening);
@@ -177,10 +158,8 @@ std::string poseChainColumns() {
 std::string poseChainRow(const PoseChainResult& r) {
   std::string reject = r.reject;
   std::replace(reject.begin(), reject.end(), ',', ';');
-  std::string text = r.scenario +
-                     formatted(",%u,%.4f,%.6f,%.6f,%d,", r.seed, r.distance_m, r.true_yaw_rad,
-                               r.true_yaw_from_sight_rad, r.detected) +
-                     reject;
+  std::string text = formatted("%s,%u,%.4f,%.6f,%.6f,%d,%s", r.scenario.c_str(), r.seed, r.distance_m,
+                               r.true_yaw_rad, r.true_yaw_from_sight_rad, r.detected, reject.c_str());
   if (!r.estimate) {
     text += std::string(12, ',');
   } else {
@@ -198,15 +177,16 @@ std::string poseChainRow(const PoseChainResult& r) {
 }
 
 std::string poseChainTable(const std::vector<PoseChainResult>& results) {
-  std::string text =
+  std::map<long, Group> groups;
+  for (const PoseChainResult& result : results) groups[std::lround(result.distance_m)].push_back(&result);
+  std::string text = markdownHead(
       "| m | images | right border | poses | yaw RMSE deg | median deg | lateral RMSE cm | distance RMSE % "
-      "| yaw error^2 / variance | sign trusted | wrong | trusted and wrong |\n|" +
-      std::string("---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  const auto groups = byDistance(results);
+      "| yaw error^2 / variance | sign trusted | wrong | trusted and wrong |");
   for (const auto& [distance_m, group] : groups) text += poseRow(distance_m, group);
   text +=
-      "\n| m | side | count | offset RMS px | mean outwards px | median px | ends RMS px | offset chi^2 | by "
-      "median | direction chi^2 | by median |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "\n" + markdownHead(
+                 "| m | side | count | offset RMS px | mean outwards px | median px | ends RMS px | offset "
+                 "chi^2 | by median | direction chi^2 | by median |");
   for (const auto& [distance_m, group] : groups)
     for (int side = 0; side < 4; ++side) text += borderRow(distance_m, side, group);
   return text;

@@ -31,14 +31,12 @@ std::optional<Eigen::Isometry3d> poseOfTrueCorners(const geometry::Quadrilateral
                                                    const geometry::OpeningSize& opening);
 
 /// One image, from its pixels to the pose, against the truth.
-struct PoseChainResult {
-  std::string scenario;
-  std::uint32_t seed = 0;
-  double distance_m = 0.0, true_yaw_rad = 0.0, true_yaw_from_sight_rad = 0.0;
+struct PoseChainResult : SurveySubject {
+  double true_yaw_rad = 0.0, true_yaw_from_sight_rad = 0.0;
   bool detected = false;  ///< the right border was detected; otherwise nothing below is set
-  std::array<std::optional<BorderError>, 4> borders;
-  std::string reject;  ///< why the detection gives no pose
-  std::optional<estimation::WindowPoseEstimate> estimate;
+  std::array<std::optional<BorderError>, 4> borders = {};
+  std::string reject = {};  ///< why the detection gives no pose
+  std::optional<estimation::WindowPoseEstimate> estimate = {};
   double yaw_error_rad = 0.0, lateral_error_m = 0.0, distance_error_m = 0.0;
   bool wrong_sign = false;  ///< of the yaw, or of the yaw against the line of sight
 };

@@ -1,13 +1,15 @@
 #include "evaluation/poses/pose_survey.hpp"
 
-#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "estimation/planar/relative_yaw.hpp"
+#include "evaluation/csv.hpp"
+#include "evaluation/statistics.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using geometry::kDegreesPerRad;
 
 std::vector<cv::Point3d> planeCorners(const geometry::OpeningSize& opening) {
   const double x = 0.5 * opening.width_m, y = 0.5 * opening.height_m;
@@ -23,15 +26,13 @@ std::vector<cv::Point3d> planeCorners(const geometry::OpeningSize& opening) {
 
 Eigen::Matrix3d eigenOf(const cv::Matx33d& m) { return Eigen::Map<const Eigen::Matrix3d>(m.val).transpose(); }
 
-std::optional<Eigen::Isometry3d> windowPose(const Eigen::Matrix3d& R_camera_plane, const Eigen::Vector3d& t) {
-  const Eigen::Isometry3d pose = geometry::makePose(R_camera_plane * geometry::R_optical_flu(), t);
-  if (!geometry::isValidPose(pose)) return std::nullopt;
-  return pose;
+std::optional<Isometry3d> windowPose(const Eigen::Matrix3d& R_camera_plane, const Vector3d& t) {
+  const Isometry3d pose = geometry::makePose(R_camera_plane * geometry::R_optical_flu(), t);
+  return geometry::isValidPose(pose) ? std::optional(pose) : std::nullopt;
 }
 
-std::optional<Eigen::Isometry3d> byPnp(int flag, const std::vector<cv::Point2d>& image, const cv::Matx33d& K,
-                                       const std::vector<double>& distortion,
-                                       const geometry::OpeningSize& opening) {
+std::optional<Isometry3d> byPnp(int flag, const std::vector<cv::Point2d>& image, const cv::Matx33d& K,
+                                const std::vector<double>& distortion, const geometry::OpeningSize& opening) {
   std::vector<cv::Mat> rotations, translations;
   if (cv::solvePnPGeneric(planeCorners(opening), image, K, distortion, rotations, translations, false,
                           static_cast<cv::SolvePnPMethod>(flag)) < 1)
@@ -42,9 +43,9 @@ std::optional<Eigen::Isometry3d> byPnp(int flag, const std::vector<cv::Point2d>&
   return windowPose(eigenOf(R), {t.at<double>(0), t.at<double>(1), t.at<double>(2)});
 }
 
-std::optional<Eigen::Isometry3d> byHomography(const std::vector<cv::Point2d>& image, const cv::Matx33d& K,
-                                              const std::vector<double>& distortion,
-                                              const geometry::OpeningSize& opening) {
+std::optional<Isometry3d> byHomography(const std::vector<cv::Point2d>& image, const cv::Matx33d& K,
+                                       const std::vector<double>& distortion,
+                                       const geometry::OpeningSize& opening) {
   std::vector<cv::Point2d> normalised, plane;
   cv::undistortPoints(image, normalised, K, distortion);
   for (const cv::Point3d& corner : planeCorners(opening)) plane.emplace_back(corner.x, corner.y);
@@ -52,9 +53,8 @@ std::optional<Eigen::Isometry3d> byHomography(const std::vector<cv::Point2d>& im
   if (homography.empty()) return std::nullopt;
   const Eigen::Matrix3d H = eigenOf(cv::Matx33d(homography.ptr<double>()));
   const double length = 0.5 * (H.col(0).norm() + H.col(1).norm()) * (H(2, 2) < 0.0 ? -1.0 : 1.0);
-  cv::Matx33d columns;
-  const Eigen::Vector3d r1 = H.col(0) / length, r2 = H.col(1) / length, r3 = r1.cross(r2);
-  for (int i = 0; i < 3; ++i) columns(i, 0) = r1(i), columns(i, 1) = r2(i), columns(i, 2) = r3(i);
+  const Vector3d r1 = H.col(0) / length, r2 = H.col(1) / length, r3 = r1.cross(r2);
+  const cv::Matx33d columns(r1(0), r2(0), r3(0), r1(1), r2(1), r3(1), r1(2), r2(2), r3(2));
   cv::Matx31d values;
   cv::Matx33d u, vt;
   cv::SVD::compute(columns, values, u, vt);
@@ -134,11 +134,8 @@ double yawError(const Isometry3d& truth, const Isometry3d& pose) {
 }
 
 void addTo(MethodErrors& errors, const View& view, const std::optional<Isometry3d>& pose) {
-  if (!pose) {
-    ++errors.failed;
-    return;
-  }
-  ++errors.count;
+  ++(pose ? errors.count : errors.failed);
+  if (!pose) return;
   errors.yaw_squares += std::pow(yawError(view.T_camera_window, *pose), 2);
   const double lateral = pose->inverse().translation().y() - view.T_camera_window.inverse().translation().y();
   errors.lateral_squares += lateral * lateral;
@@ -166,17 +163,16 @@ void addTrust(PoseCellResult& result, const View& view, const estimation::Window
   result.yaw_consistency += squares;
 }
 
-void addBound(PoseCellResult& result, const PoseBound& bound) {
-  result.yaw_bound_rad += bound.yaw_rad * bound.yaw_rad;
-  result.lateral_bound_m += bound.lateral_m * bound.lateral_m;
-  result.sigma_u_rad += bound.sigma_u_rad * bound.sigma_u_rad;
+double ratio(const PoseCellResult& result, int method) {
+  return result.methods[method].yawRms() / result.yaw_bound_rad;
 }
 
-void finish(PoseCellResult& result) {
-  const double draws = std::max(1, result.draws);
-  for (double* squares : {&result.yaw_bound_rad, &result.lateral_bound_m, &result.sigma_u_rad})
-    *squares = std::sqrt(*squares / draws);
-  result.yaw_consistency /= std::max(1, result.methods[kOurs].count);
+// Ours may exceed the best peer by the random difference of two equal methods.
+bool isBestOrEqual(const PoseCellResult& result) {
+  double best_peer = ratio(result, kFirstPeer);
+  for (int method = kFirstPeer + 1; method < kPoseMethods; ++method)
+    best_peer = std::min(best_peer, ratio(result, method));
+  return ratio(result, kOurs) <= best_peer * 1.005;
 }
 
 }  // namespace
@@ -186,9 +182,9 @@ const char* nameOfMethod(int method) {
   return kNames[method];
 }
 
-std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrilateral& corners,
-                                            const geometry::PinholeCamera& camera,
-                                            const geometry::OpeningSize& opening) {
+std::optional<Isometry3d> poseByPeer(int method, const geometry::Quadrilateral& corners,
+                                     const geometry::PinholeCamera& camera,
+                                     const geometry::OpeningSize& opening) {
   std::vector<cv::Point2d> image;
   for (const Eigen::Vector2d& corner : corners) image.emplace_back(corner.x(), corner.y());
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
@@ -201,16 +197,6 @@ std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrila
     return std::nullopt;
   }
 }
-
-PoseSurveySetup usualSetup() {
-  PoseSurveySetup setup;
-  setup.camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 2.0 * std::atan(320.0 / 554.0));
-  setup.opening = {1.0, 1.0};
-  return setup;
-}
-
-double MethodErrors::yawRms() const { return std::sqrt(yaw_squares / std::max(1, count)); }
-double MethodErrors::lateralRms() const { return std::sqrt(lateral_squares / std::max(1, count)); }
 
 PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, int draws, std::uint32_t seed) {
   const estimation::WindowPoseEstimator estimator = estimatorFor(setup);
@@ -226,7 +212,9 @@ PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, in
     const estimation::GravityPrior gravity{source.disturbed(view->up_camera), setup.attitude_sigma_rad};
     if (!window || !bound) continue;
     ++result.draws;
-    addBound(result, *bound);
+    result.yaw_bound_rad += bound->yaw_rad * bound->yaw_rad;
+    result.lateral_bound_m += bound->lateral_m * bound->lateral_m;
+    result.sigma_u_rad += bound->sigma_u_rad * bound->sigma_u_rad;
     const auto alone = estimator.estimate(*window, setup.camera);
     const auto with_attitude = estimator.estimate(*window, setup.camera, {gravity});
     if (alone.estimate) addTrust(result, *view, *alone.estimate);
@@ -238,8 +226,72 @@ PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, in
     for (int peer = kFirstPeer; peer < kPoseMethods; ++peer)
       addTo(result.methods[peer], *view, poseByPeer(peer, window->corners, setup.camera, setup.opening));
   }
-  finish(result);
+  for (double* squares : {&result.yaw_bound_rad, &result.lateral_bound_m, &result.sigma_u_rad})
+    *squares = std::sqrt(*squares / std::max(1, result.draws));
+  result.yaw_consistency /= std::max(1, result.methods[kOurs].count);
   return result;
+}
+
+std::string poseSurveyColumns() {
+  std::string text =
+      "distance_m,yaw_deg,sample_sigma_px,draws,yaw_bound_deg,lateral_bound_m,sigma_u_deg,decidable,trusted,"
+      "trusted_wrong,trusted_yaw_rmse_deg,yaw_consistency";
+  for (int method = 0; method < kPoseMethods; ++method)
+    for (const char* what : {"_yaw_rmse_deg", "_lateral_rmse_m", "_wrong_signs", "_failed"})
+      text += std::string(",") + nameOfMethod(method) + what;
+  return text;
+}
+
+std::string poseSurveyRow(const PoseCellResult& r) {
+  const double trusted_yaw_rms = std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted));
+  std::string text = formatted("%g,%g,%g,%d,%.6f,%.6f,%.6f,%d,%d,%d,%.6f,%.4f", r.cell.distance_m,
+                               r.cell.yaw_rad * kDegreesPerRad, r.cell.sample_sigma_px, r.draws,
+                               r.yaw_bound_rad * kDegreesPerRad, r.lateral_bound_m,
+                               r.sigma_u_rad * kDegreesPerRad, r.signIsDecidable(), r.trusted,
+                               r.trusted_wrong, trusted_yaw_rms * kDegreesPerRad, r.yaw_consistency);
+  for (const MethodErrors& errors : r.methods)
+    text += formatted(",%.6f,%.6f,%d,%d", errors.yawRms() * kDegreesPerRad, errors.lateralRms(),
+                      errors.wrong_signs, errors.failed);
+  return text;
+}
+
+std::string poseSurveyTable(const std::vector<PoseCellResult>& results) {
+  std::string head = "| distance m | yaw deg | noise px | bound deg | sigma_u deg | trusted % |";
+  for (int method = 0; method < kPoseMethods; ++method)
+    head += std::string(" ") + nameOfMethod(method) + " |";
+  std::string text = markdownHead(head);
+  for (const PoseCellResult& r : results) {
+    text +=
+        formatted("| %g | %g | %g | %.3f | %.3f | %.0f |", r.cell.distance_m, r.cell.yaw_rad * kDegreesPerRad,
+                  r.cell.sample_sigma_px, r.yaw_bound_rad * kDegreesPerRad, r.sigma_u_rad * kDegreesPerRad,
+                  100.0 * r.trusted / std::max(1, r.draws));
+    for (int method = 0; method < kPoseMethods; ++method) text += formatted(" %.2f |", ratio(r, method));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string poseSurveySummary(const std::vector<PoseCellResult>& results) {
+  int draws = 0, trusted = 0, wrong = 0, decidable = 0, best = 0;
+  double worst = 0.0;
+  const PoseCellResult* at = nullptr;
+  for (const PoseCellResult& r : results) {
+    draws += r.draws, trusted += r.trusted, wrong += r.trusted_wrong;
+    best += isBestOrEqual(r);
+    if (!r.signIsDecidable()) continue;
+    ++decidable;
+    if (ratio(r, kOurs) > worst) worst = ratio(r, kOurs), at = &r;
+  }
+  const Interval rate = wilson95(wrong, trusted);
+  std::string text = formatted(
+      "%d draws, sign trusted in %d, of these wrong %d (%.4f %%, 95 %% interval %.4f to %.4f %%)\n", draws,
+      trusted, wrong, 100.0 * wrong / std::max(1, trusted), 100.0 * rate.low, 100.0 * rate.high);
+  text += formatted("best or equal (0.5 %%) in %d of %zu cells\n", best, results.size());
+  if (at != nullptr)
+    text += formatted(
+        "largest yaw RMSE / bound %.3f of %d cells with sigma_u < yaw / 3, at %g m, %g deg, %g px\n", worst,
+        decidable, at->cell.distance_m, at->cell.yaw_rad * kDegreesPerRad, at->cell.sample_sigma_px);
+  return text;
 }
 
 }  // namespace window_ingress::evaluation

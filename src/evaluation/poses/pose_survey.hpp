@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,17 +35,16 @@ std::optional<Eigen::Isometry3d> poseByPeer(int method, const geometry::Quadrila
                                             const geometry::PinholeCamera& camera,
                                             const geometry::OpeningSize& opening);
 
-/// Settings common to all draws of a survey.
+/// Settings common to all draws of a survey. f = 554 px at 640 x 480 pixels, an opening of 1 m by 1 m: the
+/// setup of published bounds.
 struct PoseSurveySetup {
-  geometry::PinholeCamera camera;
-  geometry::OpeningSize opening;
+  geometry::PinholeCamera camera =
+      geometry::PinholeCamera::fromFieldOfView(640, 480, 2.0 * std::atan(320.0 / 554.0));
+  geometry::OpeningSize opening{1.0, 1.0};
   double attitude_sigma_rad = 0.02;  ///< of the attitude given to one of the methods
   double largest_bearing_rad = 0.2;  ///< of the window against the camera's axis, to either side
   double largest_tilt_rad = 0.1;     ///< of the camera, in pitch and in roll
 };
-
-/// f = 554 px at 640 x 480 pixels, an opening of 1 m by 1 m: the setup of published bounds.
-PoseSurveySetup usualSetup();
 
 struct PoseCell {
   double distance_m = 0.0;
@@ -55,8 +56,8 @@ struct PoseCell {
 struct MethodErrors {
   int count = 0, failed = 0, wrong_signs = 0;
   double yaw_squares = 0.0, lateral_squares = 0.0;
-  double yawRms() const;  ///< [rad]
-  double lateralRms() const;
+  double yawRms() const { return std::sqrt(yaw_squares / std::max(1, count)); }          ///< [rad]
+  double lateralRms() const { return std::sqrt(lateral_squares / std::max(1, count)); }  ///< [m]
 };
 
 struct PoseCellResult {

@@ -26,12 +26,12 @@ TEST_F(OverlayFile, TellsTheVehicleToPoseAndNavigation) {
   EXPECT_DOUBLE_EQ(overlay.ingress_navigator.navigator.vehicle.half_width_m, 0.45);
   EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.width_m, 1.0);
   EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.height_m, 0.5);
-  EXPECT_EQ(overlay.said, (std::set<std::string>{"vehicle/half_width_m", "vehicle/half_height_m"}));
+  EXPECT_EQ(overlay.given, (std::set<std::string>{"vehicle/half_width_m", "vehicle/half_height_m"}));
 }
 
 TEST_F(OverlayFile, WithoutAFileEverythingIsAtItsDefault) {
   const Overlay overlay = readOverlay("");
-  EXPECT_TRUE(overlay.said.empty());
+  EXPECT_TRUE(overlay.given.empty());
   EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.width_m, 0.6);
 }
 
@@ -107,7 +107,7 @@ TEST_F(OverlayFile, RefusesANodeThatHoldsNoMapping) {
 TEST_F(OverlayFile, ShippedOnesAreGood) {
   for (const char* name : {"sim", "ardupilot"}) {
     const std::string file = std::string(WINDOW_INGRESS_SOURCE_DIR "/config/") + name + ".yaml";
-    EXPECT_FALSE(readOverlay(file).said.empty()) << name;
+    EXPECT_FALSE(readOverlay(file).given.empty()) << name;
   }
 }
 

@@ -5,21 +5,23 @@
 #include <limits>
 
 #include "evaluation/poses/filter_survey.hpp"
+#include "frame_faults.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation::flight_checks_test {
 
-FramesVerdict fly(unsigned seed, const evaluation::FrameFaults& faults, double* way_m = nullptr) {
+FramesVerdict fly(unsigned seed, const test::FrameFaults& faults, double* way_m = nullptr) {
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
   script.image_rate_hz = 15.0;
-  evaluation::SyntheticApproach approach(seed, script, FilterParams(), faults);
+  evaluation::SyntheticApproach approach(seed, script, FilterParams());
   FlightChecks check{MountingCheck({}, FilterParams(), {{1.2, 1.0}})};
   while (approach.advance() && check.frames().state != FramesVerdict::kWrong) {
     for (const auto& odometry : approach.odometry())
-      check.twist.add(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
+      check.twist.add(odometry.stamp_sec, odometry.T_odom_base, faults.reported(odometry).velocity_odom_mps);
     if (approach.isInView())
-      check.mounting.see(approach.window(), approach.camera(), approach.odometry().back().T_odom_base,
-                         approach.T_base_camera());
+      check.mounting.see(approach.window(), approach.camera(),
+                         faults.reported(approach.odometry().back()).T_odom_base,
+                         faults.T_base_camera(approach));
   }
   if (way_m) *way_m = approach.flownM();
   return check.frames();
@@ -36,7 +38,7 @@ TEST(FlightChecks, IsGoodWhereBothAreAndSaysNothingMore) {
 }
 
 TEST(FlightChecks, NamesTheTwistsFrameWithinTwoMetres) {
-  evaluation::FrameFaults ned;
+  test::FrameFaults ned;
   ned.twist = "ned";
   for (unsigned seed = 1; seed <= 40; ++seed) {
     double way_m = 0.0;
@@ -48,7 +50,7 @@ TEST(FlightChecks, NamesTheTwistsFrameWithinTwoMetres) {
 }
 
 TEST(FlightChecks, FindsATwistInWorldAxes) {
-  evaluation::FrameFaults world;
+  test::FrameFaults world;
   world.twist = "world";
   int found = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) found += fly(seed, world).state == FramesVerdict::kWrong;

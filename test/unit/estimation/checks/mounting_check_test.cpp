@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "evaluation/poses/filter_survey.hpp"
+#include "frame_faults.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation::mounting_check_test {
@@ -19,8 +20,7 @@ struct Result {
 };
 
 /// The first wrong verdict, otherwise the last verdict. Drift, attitude errors and noise are always present.
-Result fly(unsigned seed, const evaluation::FrameFaults& faults, double larger = 1.0,
-           double speed_mps = 0.6) {
+Result fly(unsigned seed, const test::FrameFaults& faults, double larger = 1.0, double speed_mps = 0.6) {
   FilterParams errors;
   errors.mounting_yaw_sigma_rad = 0.005;  // `faults` adds the turn
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
@@ -28,12 +28,12 @@ Result fly(unsigned seed, const evaluation::FrameFaults& faults, double larger =
   script.opening.height_m *= larger;
   script.image_rate_hz = 15.0;
   script.speed_mps = speed_mps;
-  evaluation::SyntheticApproach approach(seed, script, errors, faults);
+  evaluation::SyntheticApproach approach(seed, script, errors);
   MountingCheck check({}, errors, {{1.2, 1.0}});
   while (approach.advance()) {
     if (approach.isInView())
-      check.see(approach.window(), approach.camera(), approach.odometry().back().T_odom_base,
-                approach.T_base_camera());
+      check.see(approach.window(), approach.camera(), faults.reported(approach.odometry().back()).T_odom_base,
+                faults.T_base_camera(approach));
     if (check.verdict().state == FramesVerdict::kWrong) break;
   }
   return {check.verdict().state, check.verdict().what, approach.flownM()};
@@ -49,7 +49,7 @@ TEST(MountingCheck, NoFalseAlarmInTwoHundredApproachesThatAreAsSaid) {
   EXPECT_GE(good, 195);
 }
 
-void expectFound(const evaluation::FrameFaults& faults, const std::string& name, double within_m) {
+void expectFound(const test::FrameFaults& faults, const std::string& name, double within_m) {
   double furthest = 0.0;
   for (unsigned seed = 300; seed < 320; ++seed) {
     const Result result = fly(seed, faults);
@@ -62,7 +62,7 @@ void expectFound(const evaluation::FrameFaults& faults, const std::string& name,
 }
 
 TEST(MountingCheck, FindsAndNamesACameraTurnedByTenDegrees) {
-  evaluation::FrameFaults roll, pitch, yaw;
+  test::FrameFaults roll, pitch, yaw;
   roll.mounting_rad.x() = -kTurn;
   pitch.mounting_rad.y() = kTurn;
   yaw.mounting_rad.z() = kTurn;
@@ -73,7 +73,7 @@ TEST(MountingCheck, FindsAndNamesACameraTurnedByTenDegrees) {
 
 TEST(MountingCheck, SaysWhichWayTheCameraIsTurned) {
   for (const double sign : {-1.0, 1.0}) {
-    evaluation::FrameFaults faults;
+    test::FrameFaults faults;
     faults.mounting_rad.z() = sign * 2.0 * kTurn;
     const Result result = fly(7, faults);
     const bool says_minus = result.what.find("about -") != std::string::npos;
@@ -82,7 +82,7 @@ TEST(MountingCheck, SaysWhichWayTheCameraIsTurned) {
 }
 
 TEST(MountingCheck, FindsAndNamesAxesThatAreOthers) {
-  evaluation::FrameFaults optical, left, behind;
+  test::FrameFaults optical, left, behind;
   optical.mounting_axes = "optical";
   left.mounting_axes = "left";
   behind.mounting_axes = "behind";
@@ -94,7 +94,7 @@ TEST(MountingCheck, FindsAndNamesAxesThatAreOthers) {
 TEST(MountingCheck, FindsMostPositionsWithExchangedAxes) {
   int found = 0;
   for (unsigned seed = 300; seed < 320; ++seed) {
-    evaluation::FrameFaults faults;
+    test::FrameFaults faults;
     faults.mirrored_odometry = true;
     found += fly(seed, faults).state == FramesVerdict::kWrong;
   }

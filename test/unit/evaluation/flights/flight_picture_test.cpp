@@ -30,7 +30,7 @@ cv::Range rowsOf(const cv::Mat& image, const cv::Scalar& colour) {
 TEST(Tracks, LeftIsUpAndEachOutcomeHasItsColour) {
   const auto image =
       drawTracks({straightFlight(Outcome::kPassed, 1.0), straightFlight(Outcome::kCollision, -1.0)},
-                 WallOutline(), "two flights");
+                 simulation::Scenario(), "two flights");
   const cv::Range passed = rowsOf(image, {60, 160, 40}), collision = rowsOf(image, {30, 30, 220});
   ASSERT_GT(passed.size(), 0);
   ASSERT_GT(collision.size(), 0);
@@ -38,13 +38,13 @@ TEST(Tracks, LeftIsUpAndEachOutcomeHasItsColour) {
 }
 
 TEST(Tracks, NoFlightsAreNoCrash) {
-  EXPECT_FALSE(drawTracks({}, WallOutline(), "none").empty());
-  EXPECT_FALSE(drawTracks({FlightResult()}, WallOutline(), "no track").empty());
+  EXPECT_FALSE(drawTracks({}, simulation::Scenario(), "none").empty());
+  EXPECT_FALSE(drawTracks({FlightResult()}, simulation::Scenario(), "no track").empty());
 }
 
 TEST(FlightStrip, ShowsTheFirstPictureOfEachStateAndTheLastOne) {
   FlightStrip strip;
-  EXPECT_TRUE(strip.draw(straightFlight(Outcome::kTimeout, 0.0), WallOutline()).empty());
+  EXPECT_TRUE(strip.draw(straightFlight(Outcome::kTimeout, 0.0), simulation::Scenario()).empty());
   simulation::CameraFrame frame;
   frame.image = cv::Mat(240, 320, CV_8UC3, cv::Scalar(40, 80, 120));
   FlightRecord record;
@@ -52,7 +52,7 @@ TEST(FlightStrip, ShowsTheFirstPictureOfEachStateAndTheLastOne) {
     record.state = state;
     strip.onImage(frame, {}, std::nullopt);
     strip.onStep(record, {});
-    return strip.draw(straightFlight(Outcome::kTimeout, 0.0), WallOutline()).rows;
+    return strip.draw(straightFlight(Outcome::kTimeout, 0.0), simulation::Scenario()).rows;
   };
   const int one_row = heightAfter(navigation::State::kSearch);
   EXPECT_EQ(heightAfter(navigation::State::kSearch), one_row) << "one picture a state";

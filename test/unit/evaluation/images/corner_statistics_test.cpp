@@ -76,11 +76,4 @@ TEST(CornerStatistics, OfNothingIsZero) {
   EXPECT_EQ(nothing.rms().norm() + nothing.mean().norm() + nothing.outward() + nothing.median(), 0.0);
 }
 
-TEST(CornerStatistics, DistancesBetweenTwo) {
-  Quadrilateral other = kTruth;
-  other[2] += Vector2d(3.0, 4.0);
-  EXPECT_NEAR(geometry::furthestCorner(other, kTruth), 5.0, 1e-12);
-  EXPECT_NEAR(meanCornerDistance(other, kTruth), 1.25, 1e-12);
-}
-
 }  // namespace window_ingress::evaluation::corner_statistics_test

@@ -43,7 +43,7 @@ TuningOptions options(int trials) {
 TEST(TuneDetector, UndoesABadSettingAndChangesNothingElse) {
   const auto set = images(4, 3);
   const detection::DetectorParams start = blinded();
-  ASSERT_LT(countDetections(set, start, nullptr).recall(), 1.0);
+  ASSERT_GT(countDetections(set, start, nullptr).missed, 0);
   int calls = 0;
   double last = 0.0;
   auto tuned = tuneDetector(set, start, nullptr, options(30), [&](int done, const DetectionCounts& best) {
@@ -52,7 +52,7 @@ TEST(TuneDetector, UndoesABadSettingAndChangesNothingElse) {
     last = best.merit();
   });
   EXPECT_EQ(calls, 30);
-  EXPECT_EQ(countDetections(set, tuned, nullptr).recall(), 1.0);
+  EXPECT_EQ(countDetections(set, tuned, nullptr).missed, 0);
   EXPECT_LT(tuned.gates.min_area, 0.2);
   detection::DetectorParams before = start;
   for (const auto& field : parameters::changed(parameters::fieldsOf(tuned), parameters::fieldsOf(before)))

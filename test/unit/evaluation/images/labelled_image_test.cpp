@@ -24,11 +24,7 @@ LabelledImage windowImage(unsigned seed = 1) {
 
 LabelledImage wall() { return {"other", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(190)), {}, std::nullopt}; }
 
-TEST(DetectionCounts, RatesOfNothingAreOne) {
-  EXPECT_DOUBLE_EQ(DetectionCounts().recall(), 1.0);
-  EXPECT_DOUBLE_EQ(DetectionCounts().precision(), 1.0);
-  EXPECT_DOUBLE_EQ(DetectionCounts().f1(), 1.0);
-}
+TEST(DetectionCounts, RatesOfNothingAreOne) { EXPECT_DOUBLE_EQ(DetectionCounts().f1(), 1.0); }
 
 TEST(DetectionCounts, SaysRatesWithTheirIntervals) {
   DetectionCounts counts;

@@ -20,7 +20,7 @@ TEST(PoseBound, IsWhatWasPublished) {
   // For one pixel of noise a sample: distance, yaw [deg], bound [deg], lateral [m].
   const double rows[][4] = {{2, 10, 0.09, 0.003}, {4, 10, 0.35, 0.02}, {4, 30, 0.13, 0.007},
                             {6, 30, 0.25, 0.02},  {8, 10, 1.1, 0.15},  {8, 30, 0.38, 0.04}};
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   for (const auto& row : rows) {
     const auto bound = poseBound(setup.camera, view(row[0], row[1] * kDegree), setup.opening, 1.0).value();
     EXPECT_NEAR(bound.yaw_rad / kDegree, row[2], 0.06 * row[2]) << row[0] << " m, " << row[1] << " deg";
@@ -33,7 +33,7 @@ TEST(PoseBound, IsWhatWasPublished) {
 }
 
 TEST(PoseBound, ScalesWithTheNoiseAndNeedsAWindowInFront) {
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   const auto one = poseBound(setup.camera, view(4, 0.3), setup.opening, 1.0).value();
   const auto half = poseBound(setup.camera, view(4, 0.3), setup.opening, 0.5).value();
   EXPECT_NEAR(half.yaw_rad, 0.5 * one.yaw_rad, 1e-12);
@@ -43,7 +43,7 @@ TEST(PoseBound, ScalesWithTheNoiseAndNeedsAWindowInFront) {
 }
 
 TEST(NoisyBorders, HaveTheSpreadsThatTheyState) {
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   const auto T = view(3, 0.4);
   const auto truth = geometry::projectOpening(setup.camera, T, setup.opening).value();
   std::mt19937 random(1);
@@ -62,7 +62,7 @@ TEST(NoisyBorders, HaveTheSpreadsThatTheyState) {
 }
 
 TEST(PeerMethods, AreExactWithoutNoiseAndRefuseWhatIsNoWindow) {
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   for (int method = kFirstPeer; method < kPoseMethods; ++method) {
     for (const double yaw : {-0.7, -0.1, 0.0, 0.3}) {
       const auto T = view(3, yaw);
@@ -79,7 +79,7 @@ TEST(PeerMethods, AreExactWithoutNoiseAndRefuseWhatIsNoWindow) {
 }
 
 TEST(PoseSurvey, OursReachesTheBoundIsTheBestAndItsTrustIsDeserved) {
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   std::vector<PoseCellResult> results;
   std::uint32_t seed = 7;
   int trusted = 0, wrong = 0;
@@ -104,7 +104,7 @@ TEST(PoseSurvey, OursReachesTheBoundIsTheBestAndItsTrustIsDeserved) {
 }
 
 TEST(PoseSurvey, TheSameSeedGivesTheSameRow) {
-  const auto setup = usualSetup();
+  const PoseSurveySetup setup;
   const PoseCell cell{4.0, 0.3, 0.2};
   const std::string row = poseSurveyRow(surveyCell(setup, cell, 20, 3));
   EXPECT_EQ(row, poseSurveyRow(surveyCell(setup, cell, 20, 3)));
@@ -114,7 +114,7 @@ TEST(PoseSurvey, TheSameSeedGivesTheSameRow) {
 }
 
 TEST(PoseSurvey, ACellThatDoesNotFitIntoTheImageHasNoDraws) {
-  EXPECT_EQ(surveyCell(usualSetup(), {0.5, 0.3, 0.2}, 5, 1).draws, 0);
+  EXPECT_EQ(surveyCell(PoseSurveySetup(), {0.5, 0.3, 0.2}, 5, 1).draws, 0);
 }
 
 }  // namespace window_ingress::evaluation::pose_survey_test
