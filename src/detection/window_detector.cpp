@@ -45,7 +45,8 @@ struct WindowDetector::Impl {
   // Gathers candidates that are windows by their geometry, and those that may be.
   void gatherAll() {
     candidates = search.kept();
-    candidates.insert(candidates.end(), search.open().begin(), search.open().end());
+    const std::vector<ScoredCandidate> open = search.open();
+    candidates.insert(candidates.end(), open.begin(), open.end());
   }
 
   std::optional<WindowObservation> judgeFrames(const View& view) {
