@@ -118,7 +118,7 @@ struct OdometryParams {
   double height_drift_m_per_sqrt_sec = 0.004;  ///< random walk of the height [m/sqrt(s)]
   double yaw_drift_rad_per_sqrt_sec = 0.0015;  ///< random walk of the heading [rad/sqrt(s)]
   double height_factor_per_m = 0.0;  ///< growth of horizontal noise and drift per metre above ground [1/m]
-  double texture_quality = 1.0;  ///< of the ground; divides horizontal noise and drift; at least 0.05 counts
+  double texture_quality = 1.0;  ///< ground texture; divides horizontal noise and drift; at least 0.05 counts
   std::string twist_frame = "body";  ///< axes of the reported velocity; world: those of odom
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -178,16 +178,16 @@ struct ImuParams {
 
 /// One temporary fault of the world.
 struct FaultParams {
-  std::string unit = "image";  ///< part of the world with the fault
-  std::string kind = "off";    ///< what the fault does to the unit
-  double at_sec = 5.0;         ///< start of the fault, in the world's time [s]
-  double duration_sec = 2.0;   ///< duration of the fault [s]
-  double rate_hz = 1.0;        ///< slow: remaining samples per second [1/s]
-  double delay_sec = 1.0;      ///< delayed: additional delay of every sample [s]
-  double off_sec = 0.5;        ///< intermittent: length of each gap; a gap comes first [s]
-  double on_sec = 0.5;         ///< intermittent: length of normal operation after each gap [s]
-  double jump_m = 4.0;         ///< wrong odom, tf: error of the position along the frame's x [m]
-  double slide_mps = 0.5;  ///< slide: speed of the position's drift, of which the velocity shows none [m/s]
+  std::string unit = "image";   ///< part of the world with the fault
+  std::string kind = "off";     ///< what the fault does to the unit
+  double at_sec = 5.0;          ///< start of the fault, in the world's time [s]
+  double duration_sec = 2.0;    ///< duration of the fault [s]
+  double rate_hz = 1.0;         ///< slow: remaining samples per second [1/s]
+  double delay_sec = 1.0;       ///< delayed: additional delay of every sample [s]
+  double off_sec = 0.5;         ///< intermittent: length of each gap; a gap comes first [s]
+  double on_sec = 0.5;          ///< intermittent: length of normal operation after each gap [s]
+  double jump_m = 4.0;          ///< wrong odom, tf: error of the position along the frame's x [m]
+  double slide_mps = 0.5;       ///< slide: drift of the position that the velocity does not show [m/s]
   double direction_rad = 0.0;   ///< slide: direction of the drift, from the frame's x towards its y [rad]
   double turn_rad = 1.5707963;  ///< wrong odom, tf: error of the heading [rad]
   double tilt_rad = 0.5;        ///< wrong imu: error of the attitude, in roll [rad]
