@@ -258,7 +258,8 @@ int check(const Options& o) {
   faults.collect([&] { tools::checkPlayed(o.bag, o.plays); });
   faults.throwIfAny();
   if (o.isByHand() || (o.asksForSizes() && o.fly == "true"))
-    std::cerr << "check_overlay: " << tools::understood(overlay) << "\n";
+    std::cerr << "check_overlay: "
+              << tools::understood(overlay, o.scenario.empty() && !tools::givesOpening(overlay)) << "\n";
   std::cout << file << "\n";
   return 0;
 }

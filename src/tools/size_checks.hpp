@@ -101,15 +101,16 @@ inline void checkAspect(double in_image, const estimation::PoseParams& opening) 
 inline void overrideWindowSize(const std::string& text, const std::string& file,
                                configuration::Overlay& overlay) {
   if (text.empty()) return;
+  const bool has_width = overlay.gives(kOpening[0]), has_height = overlay.gives(kOpening[1]);
+  overlay.given.insert(kOpening.begin(), kOpening.end());  // a wrong size is not missing as well
   const auto size = numbers("window_size", text, 2);
   estimation::PoseParams& pose = overlay.homography_pose.pose;
-  const bool contradicts = (overlay.gives(kOpening[0]) && std::abs(pose.opening_width_m - size[0]) > 1e-9) ||
-                           (overlay.gives(kOpening[1]) && std::abs(pose.opening_height_m - size[1]) > 1e-9);
+  const bool contradicts = (has_width && std::abs(pose.opening_width_m - size[0]) > 1e-9) ||
+                           (has_height && std::abs(pose.opening_height_m - size[1]) > 1e-9);
   if (contradicts)
     warn(formatted("window_size %s overrides %s, which says %g,%g", text.c_str(), file.c_str(),
                    pose.opening_width_m, pose.opening_height_m));
   takeWindowSize("window_size", text, pose);
-  overlay.given.insert(kOpening.begin(), kOpening.end());
 }
 
 /// A size of vehicle or opening. \param name as in a parameter file
@@ -141,14 +142,15 @@ inline std::string otherSizes(configuration::Overlay overlay, const simulation::
 }
 
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.
-inline std::string understood(const configuration::Overlay& overlay) {
+/// \param is_assumed nobody gives the opening's size
+inline std::string understood(const configuration::Overlay& overlay, bool is_assumed) {
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;
   const std::string body = "a vehicle of " + sizeOf(vehicle) + " (length, width, height)";
   if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
-  const char* assumed = givesOpening(overlay) ? "" : " (assumed: no size of the opening is given)";
   return body + " through " + sizeOf(pose) +
-         formatted("%s: %.2f m free on each side, %.2f m above and below", assumed,
+         formatted("%s: %.2f m free on each side, %.2f m above and below",
+                   is_assumed ? " (assumed: no size of the opening is given)" : "",
                    0.5 * pose.opening_width_m - vehicle.half_width_m,
                    0.5 * pose.opening_height_m - vehicle.half_height_m);
 }

@@ -33,7 +33,7 @@ struct FilterParams {
 
   static constexpr double kKnownSizeSigma = 0.003;  ///< relative error of a size that counts as known
   static constexpr double kSystematicRenewalM =
-      0.5;  ///< a corner's systematic error is renewed this far away
+      0.5;  ///< systematic errors of one corner are independent this far apart
 
   MotionModel targetMotion() const { return {target_speed_mps, target_speed_time_sec}; }
 

@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -44,7 +45,7 @@ class StampGate {
           age_sec / 86400.0, limits_.max_age_sec);
     if (age_sec > limits_.max_age_sec)
       return formatted("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
-    if (now_sec <= 0.0 && -age_sec > limits_.max_future_sec)
+    if (now_sec <= 0.0 && -age_sec > std::min(limits_.max_future_sec, 86400.0))
       return "the clock has not begun: nothing has come on /clock yet";
     if (-age_sec > 86400.0)
       return formatted(

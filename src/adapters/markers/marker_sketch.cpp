@@ -63,6 +63,7 @@ void MarkerSketch::line(const std::string& name, const Points& points, const std
 
 void MarkerSketch::line(const std::string& name, const Points& points,
                         std::vector<std_msgs::ColorRGBA> colours) {
+  if (colours.size() != points.size() || colours.empty()) return gone(name);
   if (Marker* marker = shape(name, Marker::LINE_STRIP, points, 2, colours.back()))
     marker->colors = std::move(colours);
 }

@@ -14,12 +14,6 @@ namespace window_ingress::adapters {
 /// \param rgb 0xRRGGBB
 std_msgs::ColorRGBA colourOf(int rgb, double alpha = 1.0);
 
-constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, if its normal is trusted
-constexpr int kOpenRgb = 0xffa500;      ///< the likelier of the two solutions
-constexpr int kMirroredRgb = 0xb05cff;  ///< the less likely solution
-constexpr int kWallRgb = 0xd8c8ab;      ///< the plane of the wall
-constexpr int kKnownRgb = 0x7fb2e5;     ///< a remembered window of unknown openness
-constexpr int kClosedRgb = 0xe74c3c;    ///< a closed window
 constexpr int kTextRgb = 0xffffff;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -33,7 +27,7 @@ class MarkerSketch {
   MarkerSketch(const ros::Time& stamp, const std::string& frame_id);
 
   void line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour);
-  /// \param colours one per point, at least one
+  /// \param colours one per point
   void line(const std::string& name, const Points& points, std::vector<std_msgs::ColorRGBA> colours);
   /// \param ends two points per stroke
   void strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour);

@@ -25,8 +25,9 @@ simulation::Scenario load(const WorldNodeParams& params) {
   if (!params.scenario.empty())
     scenario = simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
   if (params.start_at == "vehicle" && scenario.vehicle.profile != "external")
-    throw InputError("start_at: vehicle needs a scenario with 'vehicle: external', but the scenario " +
-                     params.scenario + " simulates its own vehicle: add that line, or use sim.launch");
+    throw InputError("start_at: vehicle needs a scenario with 'vehicle: external'; " +
+                     (params.scenario.empty() ? "none is given" : params.scenario + " has its own vehicle") +
+                     ": add that line, or use sim.launch");
   return scenario;
 }
 

@@ -15,9 +15,9 @@ inline constexpr double kEndMargin = 0.06;
 /// Where profiles are taken: across a straight stretch of the undistorted image.
 struct ProfileGrid {
   Eigen::Vector2d from, to;        ///< ends of the stretch [px]
-  int count = 80;                  ///< profiles, evenly spaced
+  int count = 0;                   ///< profiles, evenly spaced
   double end_margin = kEndMargin;  ///< left out at both ends, in lengths of the stretch
-  int reach_px = 6;                ///< samples on either side, one raw pixel apart
+  int reach_px = 0;                ///< samples on either side, one raw pixel apart
   bool rough = false;              ///< nearest pixel instead of interpolation
 };
 

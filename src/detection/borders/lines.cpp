@@ -21,9 +21,11 @@ double varianceAt(const Line& line, const Vector2d& point) {
 
 double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
 
+using Weights = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostPoints, 1>;  // on the stack
+
 // Weighted least squares; false if the weights leave nothing to solve.
 bool solveLine(const std::vector<double>& positions, const std::vector<double>& offsets,
-               const Eigen::ArrayXd& weights, OffsetLine& line) {
+               const Weights& weights, OffsetLine& line) {
   double w = 0, ws = 0, wd = 0, wss = 0, wsd = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const double weight = weights[static_cast<Eigen::Index>(i)], s = positions[i], d = offsets[i];
@@ -41,12 +43,12 @@ bool solveLine(const std::vector<double>& positions, const std::vector<double>& 
 
 void fitRobustLine(const std::vector<double>& positions, const std::vector<double>& offsets, double scale_px,
                    OffsetLine& line) {
-  if (positions.size() < 2) return;
+  if (positions.size() < 2 || positions.size() > std::size_t{kMostPoints}) return;
   const auto size = static_cast<Eigen::Index>(positions.size());
   const Eigen::Map<const Eigen::ArrayXd> s(positions.data(), size), d(offsets.data(), size);
   const double reach = std::max(std::abs(positions.front()), std::abs(positions.back()));
   // The first weights are about the points' median, because all points may lie a little off the start.
-  Eigen::ArrayXd weights = d - (line.offset + line.slope * s), sorted = weights;
+  Weights weights = d - (line.offset + line.slope * s), sorted = weights;
   std::nth_element(sorted.data(), sorted.data() + size / 2, sorted.data() + size);
   weights = ((weights - sorted[size / 2]) / (6.0 * scale_px)).unaryExpr(&bisquare) + 1e-3;
   for (int pass = 0; pass < kRobustPasses; ++pass) {

@@ -27,8 +27,11 @@ struct OffsetLine {
   double at(double position) const { return offset + slope * position; }
 };
 
+inline constexpr int kMostPoints = 128;  ///< of one line
+
 /// Fits the line to points near it: reweighted least squares with Tukey's bisquare. Points further off than
-/// three times `scale_px` do not count in the end. With fewer than two points the line does not change.
+/// three times `scale_px` do not count in the end. With fewer than two points, or more than `kMostPoints`,
+/// the line does not change. Allocates nothing.
 /// \param positions of the points, in their order along the line \param offsets as many
 void fitRobustLine(const std::vector<double>& positions, const std::vector<double>& offsets, double scale_px,
                    OffsetLine& line);

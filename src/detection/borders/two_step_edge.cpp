@@ -8,8 +8,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "detection/borders/two_step_edge.hpp"
-
 namespace window_ingress::detection {
 namespace {
 

@@ -112,11 +112,12 @@ void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandid
         candidates[inner].verdict = RejectReason::kPane;
     }
   }
-  // Both borders belong to one frame, so the inner border gets at least the outer one's score.
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (inner_border[i] >= 0) {
-      ScoredCandidate& inner = candidates[inner_border[i]];
-      inner.score = std::max(inner.score, candidates[i].score);
+  // All borders belong to one frame, so each gets at least the score of the next outer one, from outside
+  // inwards.
+  for (const int outer : order)
+    if (inner_border[outer] >= 0) {
+      ScoredCandidate& inner = candidates[inner_border[outer]];
+      inner.score = std::max(inner.score, candidates[outer].score);
     }
 }
 

@@ -118,9 +118,10 @@ FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& loop
     return (colour - frames[side]).norm() < kAlikePart * (walls[side] - frames[side]).norm();
   };
   const auto tells = [&](int side) {
+    if (!seen[side]) return false;
     int alike = 0;
     for (int k = 0; k < 4; ++k) alike += seen[k] && is_frame(frames[k], side);
-    return seen[side] && alike >= kFewestAlike;
+    return alike >= kFewestAlike;
   };
   FrameEnds beyond{};
   for (int end = 0; end < 2; ++end) {

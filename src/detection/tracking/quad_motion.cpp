@@ -17,9 +17,10 @@ constexpr double kMinSigmaPx = 0.05;
 constexpr double kGain = 0.5;           // correction of the velocity by the prediction's error
 constexpr double kUnknownMotion = 3.0;  // factor of the first prediction's spread, without velocity
 
-// A quadrilateral's coordinates lie one behind the other.
-Eigen::Map<const Vector8d> asVector(const geometry::Quadrilateral& quad) {
-  return Eigen::Map<const Vector8d>(quad[0].data());
+Vector8d asVector(const geometry::Quadrilateral& quad) {
+  Vector8d vector;
+  vector << quad[0], quad[1], quad[2], quad[3];
+  return vector;
 }
 
 // Columns: corner movements of about one pixel, for each kind of change.

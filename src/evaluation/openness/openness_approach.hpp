@@ -18,13 +18,15 @@ namespace window_ingress::evaluation {
 
 class OpennessApproach {
  public:
+  static constexpr geometry::OpeningSize kNeeded{0.6, 0.34};  ///< way of the vehicle that is judged [m]
+
   OpennessApproach(const OpennessRange& range, const geometry::OpeningSize& opening,
                    const openness::OpennessParams& params, std::uint32_t seed)
       : range_(range),
         opening_(opening),
         flight_(range.flight, seed),
         random_(seed, "openness approach"),
-        judge_(params, {0.6, 0.34}) {
+        judge_(params, kNeeded) {
     window_error_ = geometry::makePose(geometry::yawRotation(random_.normal(range.window_error_rad)),
                                        random_.normals(range.window_error_m));
     camera_turn_ = noisyTurn(range.attitude_bias_rad);

@@ -115,7 +115,8 @@ class Commit : public Behaviour {
   }
 
   std::string whyTurnBack(const CommitCriterion& criterion, double blind_sec) const {
-    if (isBroken(criterion, *params_)) return criterion.unmet;
+    if (isBroken(criterion, *params_))
+      return criterion.unmet.empty() ? "predicted miss above the clearance" : criterion.unmet;
     if (disagreements_ >= kInARow)
       return formatted("the window is seen %.2f m away from where it was", disagreement_m_);
     if (forbidden_ >= kInARow) return why_forbidden_;

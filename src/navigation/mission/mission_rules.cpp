@@ -37,8 +37,9 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, 
                                       const NavigatorParams& params) {
   std::vector<std::string> faults;
   if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
+  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
   for (const std::string* fault :
-       {&situation.vehicle_fault, &situation.image_fault, &situation.camera_fault, &situation.setpoint_fault})
+       {&situation.image_fault, &situation.camera_fault, &situation.setpoint_fault})
     if (!fault->empty()) faults.push_back(*fault);
   if (!engaged)
     faults.push_back("the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");

@@ -7,6 +7,7 @@
 
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/markers/marker_sketch.hpp"
+#include "adapters/markers/window_markers.hpp"
 
 namespace window_ingress::adapters::marker_colours_test {
 
