@@ -117,7 +117,8 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
 // How well the ring fits; where the shape is known, covered parts do not count.
 double RingAlignment::fit() const {
   if (!leaves_out_) return correlationOf(segments_).mean();
-  std::vector<WeightedSum> parts;
+  thread_local std::vector<WeightedSum> parts;
+  parts.clear();
   for (const RingSegment& segment : segments_) addParts(segment.alike, segment, parts);
   return meanUncovered(parts);
 }
@@ -236,8 +237,8 @@ std::optional<AlignedRing> RingAlignment::ringAt(const Matrix3d& map, double cor
 }
 
 // The side that something covers: three sides fit far better without it. Nothing otherwise.
-std::optional<int> RingAlignment::hiddenSide() const {
-  const std::vector<RingSegment> segments = view_.segments();
+std::optional<int> RingAlignment::hiddenSide() {
+  const std::vector<RingSegment>& segments = view_.segments();
   double most = std::max(kThreeSides, correlationOf(segments).mean() + kHiddenSide);
   std::optional<int> hidden;
   for (int side = 0; side < 4; ++side) {

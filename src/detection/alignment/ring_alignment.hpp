@@ -69,7 +69,7 @@ class RingAlignment {
   double beyondChance(double correlation) const;
   double partInView(int side) const;
   double fit() const;
-  std::optional<int> hiddenSide() const;
+  std::optional<int> hiddenSide();
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   double refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                 int most_steps, const std::optional<int>& hidden = std::nullopt);

@@ -15,7 +15,8 @@ constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: oth
 // it. A frame in another paint still correlates with the reference's; but its contrast with the wall differs.
 double weighContrasts(const std::vector<RingSegment>& segments, std::vector<WeightedSum>& parts) {
   const auto is_like = [](const RingSegment& s) { return s.alike > 0.0 && s.gain > 0.0F; };
-  std::vector<float> gains;
+  thread_local std::vector<float> gains;
+  gains.clear();
   for (const RingSegment& s : segments)
     if (is_like(s)) gains.push_back(s.gain);
   const double middle = gains.empty() ? 1.0 : geometry::median(gains);
@@ -33,11 +34,11 @@ double weighContrasts(const std::vector<RingSegment>& segments, std::vector<Weig
 
 RingMatch matchOf(RingView& view) {
   RingMatch match;
-  const std::vector<RingSegment> segments = view.segments();
+  const std::vector<RingSegment>& segments = view.segments();
   const WeightedSum correlation = correlationOf(segments);
   match.correlation = correlation.mean();
   if (!(correlation.weight > 0.0)) return match;
-  std::vector<WeightedSum> parts;
+  thread_local std::vector<WeightedSum> parts;
   match.contrast = weighContrasts(segments, parts);
   for (const WeightedSum& part : parts) match.faithful += part.sum / correlation.weight;
   view.coverOutliers(RingView::kCoverPasses);

@@ -228,10 +228,10 @@ RingSegment RingView::segment(int s) const {
   return segment;
 }
 
-std::vector<RingSegment> RingView::segments() const {
-  std::vector<RingSegment> all(ring_->segmentCount());
-  for (int s = 0; s < ring_->segmentCount(); ++s) all[s] = segment(s);
-  return all;
+const std::vector<RingSegment>& RingView::segments() {
+  segments_.clear();
+  for (int s = 0; s < ring_->segmentCount(); ++s) segments_.push_back(segment(s));
+  return segments_;
 }
 
 // Iteratively reweighted least squares; segment gains and offsets follow from the weights.

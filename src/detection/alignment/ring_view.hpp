@@ -74,7 +74,7 @@ class RingView {
 
   const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
-  std::vector<RingSegment> segments() const;
+  const std::vector<RingSegment>& segments();               ///< until the next call
   float meanLog() const;                                    ///< mean over the visible samples
   const float* weights() const { return weights_.data(); }  ///< of the samples; 0 outside the image
 
@@ -102,6 +102,7 @@ class RingView {
   bool covered_ = false;
   std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level
   std::vector<float> values_, weights_, residuals_, scratch_;
+  std::vector<RingSegment> segments_;
 };
 
 /// Scale of the robust Cauchy weight 1 / (1 + factor * residual^2), for residuals of this standard deviation.

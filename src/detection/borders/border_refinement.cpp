@@ -34,11 +34,11 @@ struct FittedSide {
   const BorderStart& start;
   const int side;
   const Vector2d from, to;  ///< ends of the side, undistorted
+  EdgeProfiles& profiles;
+  SubpixelBorder& subpixel;
   const double pixel = pixelAcross(lens, from, to);
   const SideSigma known{start.known[side].px / pixel, start.known[side].rad / pixel};  ///< [profiles' pixels]
   const bool is_hidden = start.hidden == side;
-  EdgeProfiles profiles{};
-  SubpixelBorder subpixel{};
   FittedBorder border{};
   bool shows_edge = false, fitted = false, seen = false;
   double inliers = 0.0;  ///< part of the profiles on the line
@@ -160,6 +160,8 @@ std::optional<RefinedBorders> refineBorders(const cv::Mat& image, const BorderSt
                                             const geometry::PinholeCamera* camera, double* worst_inliers) {
   const geometry::PinholeCamera* lens = geometry::lensOf(camera);
   const geometry::Quadrilateral quad = geometry::undistorted(start.quad, lens);
+  thread_local EdgeProfiles profiles;  // keep their memory
+  thread_local SubpixelBorder subpixel;
   std::array<Line, 4> lines;
   RefinedBorders borders;
   borders.known = start.known;
@@ -168,7 +170,7 @@ std::optional<RefinedBorders> refineBorders(const cv::Mat& image, const BorderSt
   for (int i = 0; i < 4; ++i) {
     const Vector2d &from = quad[i], &to = quad[(i + 1) % 4];
     if (!((to - from).norm() > kShortestPx)) return std::nullopt;
-    FittedSide side{image, lens, start, i, from, to};
+    FittedSide side{image, lens, start, i, from, to, profiles, subpixel};
     const bool found = side.run();
     worst = std::min(worst, side.inliers);
     if (!found) return std::nullopt;

@@ -53,8 +53,9 @@ void SubpixelBorder::project(const EdgeProfiles& profiles, const Eigen::Vector3f
 
 bool SubpixelBorder::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
   const int radius = static_cast<int>(std::ceil(radius_px)), width = profiles.width();
-  std::vector<float> mean(static_cast<std::size_t>(3) * width), sizes;
-  std::vector<Eigen::Vector3f> changes;  // of the mean colour over two pixels, by offset
+  thread_local std::vector<float> mean, sizes;
+  thread_local std::vector<Eigen::Vector3f> changes;  // of the mean colour over two pixels, by offset
+  mean.assign(static_cast<std::size_t>(3) * width, 0.0f), sizes.clear(), changes.clear();
   profiles.mean(0, profiles.count(), mean.data());
   const bool soft = isColourSoft(profiles);
   int strongest = radius;

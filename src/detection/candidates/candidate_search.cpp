@@ -1,6 +1,7 @@
 #include "detection/candidates/candidate_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/side_support.hpp"
@@ -28,7 +29,7 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
 const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
                                                          const geometry::PinholeCamera* camera,
                                                          DetectionTrace& trace) {
-  level_ = preprocess(image, params_.preprocess);
+  level_ = preprocess(image, params_.preprocess, std::move(level_.image));
   lens_ = lensOfLevel(camera, level_);
   done(timer_, Stage::kPreprocess);
   look(level_.image);
@@ -37,19 +38,19 @@ const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
 
 // From edges to segments and outlines.
 void CandidateSearch::look(const cv::Mat& image) {
-  map_ = cannyEdges(image, params_.edges);
+  map_ = cannyEdges(image, params_.edges, std::move(map_));
   done(timer_, Stage::kEdges);
   segments_ = &hough_.run(chains_.run(map_, lens()), image.size());
   done(timer_, Stage::kLines);
   outlines_ = {};
-  outline(edgesOnSegments(chains_, hough_, image.size()), CandidateSource::kContour);
+  straight_ = edgesOnSegments(chains_, hough_, image.size(), std::move(straight_));
+  outline(straight_, CandidateSource::kContour);
   done(timer_, Stage::kOutlines);
 }
 
 void CandidateSearch::outline(const cv::Mat& mask, CandidateSource source) {
-  cv::Mat closed;
-  const int dilation_px = closeGaps(mask, params_.closing, closed);
-  addOutlines(closed, dilation_px, params_.contours, source, outlines_);
+  const int dilation_px = closeGaps(mask, params_.closing, closed_);
+  addOutlines(closed_, dilation_px, params_.contours, source, outlines_);
 }
 
 const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(const std::optional<Eigen::Vector3f>& paint,

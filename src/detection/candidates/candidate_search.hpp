@@ -61,6 +61,7 @@ class CandidateSearch {
   SearchLevel level_;
   std::optional<geometry::PinholeCamera> lens_;  ///< of the search level
   EdgeMap map_;
+  cv::Mat straight_, closed_;  // edges on segments; with their gaps closed
   EdgeChains chains_;
   HoughSegments hough_;
   SegmentQuads segment_quads_;

@@ -34,20 +34,46 @@ void thinRow(const short* above, const short* here, const short* below, const sh
   }
 }
 
-// Sobel sums of the channel with the largest |dx| + |dy|, the first on a tie. \return |dx| + |dy|, CV_16SC1
-cv::Mat strongestGradient(const cv::Mat& image, EdgeMap& map) {
-  cv::Mat channel, dx, dy, strongest;
-  for (int c = 0; c < image.channels(); ++c) {
-    cv::extractChannel(image, channel, c);
-    cv::Sobel(channel, dx, CV_16S, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-    cv::Sobel(channel, dy, CV_16S, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-    const cv::Mat strength = cv::abs(dx) + cv::abs(dy);
-    const cv::Mat stronger = c > 0 ? cv::Mat(strength > strongest) : cv::Mat();  // empty: everywhere
-    strength.copyTo(strongest, stronger);
-    dx.copyTo(map.dx, stronger);
-    dy.copyTo(map.dy, stronger);
+short strengthOf(short dx, short dy) {
+  return static_cast<short>(static_cast<short>(std::abs(dx)) + static_cast<short>(std::abs(dy)));
+}
+
+// Of three channels, the gradient of that with the largest |dx| + |dy|, the first on a tie. Without branches,
+// for the vectorizer.
+void strongestInRow(const std::array<const short*, 3>& dx3, const std::array<const short*, 3>& dy3,
+                    int columns, short* __restrict dx, short* __restrict dy, short* __restrict strength) {
+  const auto [dx0, dx1, dx2] = dx3;
+  const auto [dy0, dy1, dy2] = dy3;
+  for (int x = 0; x < columns; ++x) {
+    const short first = strengthOf(dx0[x], dy0[x]), second = strengthOf(dx1[x], dy1[x]),
+                third = strengthOf(dx2[x], dy2[x]), most = first < second ? second : first;
+    const bool by_second = second > first, by_third = third > most;
+    const short front_dx = by_second ? dx1[x] : dx0[x], front_dy = by_second ? dy1[x] : dy0[x];
+    dx[x] = by_third ? dx2[x] : front_dx;
+    dy[x] = by_third ? dy2[x] : front_dy;
+    strength[x] = by_third ? third : most;
   }
-  return strongest;
+}
+
+// Sets the gradient of the strongest channel. \return |dx| + |dy|, CV_16SC1, until the next call
+const cv::Mat& strongestGradient(const cv::Mat& image, EdgeMap& map) {
+  constexpr int kBorder = cv::BORDER_REPLICATE | cv::BORDER_ISOLATED;
+  thread_local cv::Mat sums, strength;
+  thread_local std::vector<cv::Mat> dx, dy;  // of each channel
+  cv::Sobel(image, sums, CV_16S, 1, 0, 3, 1.0, 0.0, kBorder);
+  cv::split(sums, dx);
+  cv::Sobel(image, sums, CV_16S, 0, 1, 3, 1.0, 0.0, kBorder);
+  cv::split(sums, dy);
+  for (cv::Mat* result : {&map.dx, &map.dy, &strength}) result->create(image.size(), CV_16SC1);
+  const auto row = [](const std::vector<cv::Mat>& channels, int y) {
+    return std::array<const short*, 3>{channels.front().ptr<short>(y),
+                                       channels[channels.size() / 2].ptr<short>(y),
+                                       channels.back().ptr<short>(y)};
+  };
+  for (int y = 0; y < image.rows; ++y)
+    strongestInRow(row(dx, y), row(dy, y), image.cols, map.dx.ptr<short>(y), map.dy.ptr<short>(y),
+                   strength.ptr<short>(y));
+  return strength;
 }
 
 // Threshold below which `high_quantile` of all pixels lie [grey levels per pixel].
@@ -70,7 +96,7 @@ double upperThreshold(const cv::Mat& strength, const CannyParams& params) {
 void followStrong(cv::Mat& edges) {
   const auto step = static_cast<std::ptrdiff_t>(edges.step);
   const std::ptrdiff_t around[8] = {-step - 1, -step, -step + 1, -1, 1, step - 1, step, step + 1};
-  std::vector<uchar*> waiting;
+  thread_local std::vector<uchar*> waiting;
   for (int y = 1; y + 1 < edges.rows; ++y) {
     uchar* row = edges.ptr(y);
     for (int x = 1; x + 1 < edges.cols; ++x) {
@@ -90,13 +116,13 @@ void followStrong(cv::Mat& edges) {
 
 }  // namespace
 
-EdgeMap cannyEdges(const cv::Mat& image, const CannyParams& params) {
-  EdgeMap map;
-  const cv::Mat strength = strongestGradient(image, map);
+EdgeMap cannyEdges(const cv::Mat& image, const CannyParams& params, EdgeMap map) {
+  const cv::Mat& strength = strongestGradient(image, map);
   const double upper = EdgeMap::kSobelGain * upperThreshold(strength, params);
   const auto low = static_cast<short>(std::floor(params.low_ratio * upper)),
              high = static_cast<short>(std::floor(upper));
-  map.edges = cv::Mat::zeros(strength.size(), CV_8UC1);
+  map.edges.create(strength.size(), CV_8UC1);
+  map.edges.setTo(0);
   for (int y = 1; y + 1 < strength.rows; ++y)
     thinRow(strength.ptr<short>(y - 1), strength.ptr<short>(y), strength.ptr<short>(y + 1),
             map.dx.ptr<short>(y), map.dy.ptr<short>(y), low, high, strength.cols, map.edges.ptr(y));

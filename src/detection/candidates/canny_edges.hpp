@@ -16,7 +16,8 @@ struct EdgeMap {
 };
 
 /// Canny (P3) with thresholds that adapt to the image. For colour images the gradient is that of the
-/// strongest channel. \param image CV_8UC1 or CV_8UC3, not empty
-EdgeMap cannyEdges(const cv::Mat& image, const CannyParams& params);
+/// strongest channel. \param image CV_8UC1 or CV_8UC3, not empty \param map an earlier result, whose memory
+/// is reused
+EdgeMap cannyEdges(const cv::Mat& image, const CannyParams& params, EdgeMap map = {});
 
 }  // namespace window_ingress::detection

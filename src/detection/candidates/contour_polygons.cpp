@@ -75,7 +75,8 @@ int closeGaps(const cv::Mat& edges, const DilationParams& params, cv::Mat& close
 }
 
 std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull) {
-  std::vector<Vector2d> polygon;
+  thread_local std::vector<Vector2d> polygon;
+  polygon.clear();
   for (const cv::Point& p : hull) polygon.emplace_back(p.x, p.y);
   while (polygon.size() > 4)
     if (!removeCheapestSide(polygon)) return std::nullopt;
@@ -85,14 +86,14 @@ std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point
 
 void addOutlines(const cv::Mat& closed, int dilation_px, const ContourPolygonsParams& params,
                  CandidateSource source, Outlines& outlines) {
-  std::vector<std::vector<cv::Point>> contours;
-  std::vector<cv::Vec4i> tree;
+  thread_local std::vector<std::vector<cv::Point>> contours;
+  thread_local std::vector<cv::Vec4i> tree;
   cv::findContours(closed, contours, tree, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   const int found = static_cast<int>(contours.size());
   outlines.contours += found;
   outlines.budget_exceeded = outlines.budget_exceeded || found > kMaxContours;
   const double min_perimeter_px = kMinPerimeter * std::max(closed.cols, closed.rows);
-  std::vector<cv::Point> hull, polygon;
+  thread_local std::vector<cv::Point> hull, polygon;
   for (int i = 0; i < std::min(found, kMaxContours); ++i) {
     const std::vector<cv::Point>& outline = contours[i];
     if (outline.size() < 4 || cv::arcLength(outline, true) < min_perimeter_px) continue;

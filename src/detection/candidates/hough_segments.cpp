@@ -197,8 +197,10 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   return segments_;
 }
 
-cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level) {
-  cv::Mat edges = cv::Mat::zeros(level, CV_8UC1);
+cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
+                        cv::Mat edges) {
+  edges.create(level, CV_8UC1);
+  edges.setTo(0);
   for (std::size_t i = 0; i < runs.runs().size(); ++i) {
     if (!lines.onSegment()[i]) continue;
     const auto first = runs.pixels().begin() + runs.runs()[i].first;

@@ -73,7 +73,9 @@ class HoughSegments {
 };
 
 /// Keeps the part of an edge map that lies on the segments found: Hough selects (P4), it does not draw.
-/// \param runs and \param lines after their last call \return CV_8UC1, 0 or 255
-cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level);
+/// \param runs and \param lines after their last call \param edges an earlier result, whose memory is reused
+/// \return CV_8UC1, 0 or 255
+cv::Mat edgesOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
+                        cv::Mat edges = {});
 
 }  // namespace window_ingress::detection

@@ -1,8 +1,10 @@
 #include "detection/candidates/preprocess.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "detection/chromaticity.hpp"
 #include "detection/image_pyramid.hpp"
@@ -45,16 +47,16 @@ std::optional<geometry::PinholeCamera> lensOfLevel(const geometry::PinholeCamera
   return lens;
 }
 
-SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params) {
+SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params, cv::Mat smooth) {
+  thread_local std::array<cv::Mat, 2> halves;
   SearchLevel level{image, 1};
   while (std::max(level.image.cols, level.image.rows) > params.search_side_px &&
          std::min(level.image.cols, level.image.rows) / 2 >= kMinSidePx) {
-    cv::Mat half;
-    halve(level.image, half);
-    level = {half, 2 * level.factor};
+    halve(level.image, halves[0]);
+    level = {halves[0], 2 * level.factor};
+    std::swap(halves[0], halves[1]);
   }
   const double sigma_px = params.blur_sigma_px;
-  cv::Mat smooth;
   if (sigma_px > 0.0)
     cv::GaussianBlur(level.image, smooth, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
   else

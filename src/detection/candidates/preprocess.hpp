@@ -28,8 +28,9 @@ std::optional<geometry::PinholeCamera> lensOfLevel(const geometry::PinholeCamera
                                                    const SearchLevel& level);
 
 /// Noise removal and reduction (P2): pyramid down to the search level by pixel averages, Gaussian blur,
-/// histogram equalisation. \param image CV_8UC1 or CV_8UC3, not empty; not shared
-SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params);
+/// histogram equalisation. \param image CV_8UC1 or CV_8UC3, not empty; not shared \param smooth an earlier
+/// level, whose memory is reused
+SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params, cv::Mat smooth = {});
 
 /// A level without brightness (P23): CV_8UC3, differences between its channels about 128. Empty if it has no
 /// colours.
