@@ -243,7 +243,7 @@ PARAMETERS_HEAD = """# Parameters
 Every parameter of every node, by its `rosparam` name below the node's name. The vehicle's parameters stand below `vehicle`.
 `dev/write_parameter_files.py` writes this page and the yaml files in `config/` from the parameter structs of the headers.
 A node that starts with an unknown key or a value out of range refuses it by name. How to choose values:
-[those that matter](getting_started.md#my_droneyaml), [tuning the detector](window.md#tune), [navigation](navigation.md), [pose](pose.md). The detector's parameters (`detector/…`) can
+[those that matter](getting_started.md#the-parameters-that-matter), [tuning the detector](window.md#tune), [navigation](navigation.md), [pose](pose.md). The detector's parameters (`detector/…`) can
 be changed at run time with dynamic_reconfigure.
 """
 

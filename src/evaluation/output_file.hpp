@@ -69,7 +69,9 @@ inline cv::Mat imageOrNone(const std::filesystem::path& file) {
 /// The same. \throws InputError that names the file
 inline cv::Mat readImage(const std::filesystem::path& file) {
   const cv::Mat image = imageOrNone(file);
-  if (image.empty()) throw InputError(file.string() + ": cannot be read as an image");
+  if (image.empty())
+    throw InputError(file.string() +
+                     (std::filesystem::exists(file) ? ": cannot be read as an image" : ": no such file"));
   return image;
 }
 

@@ -42,10 +42,14 @@ struct Navigator::Impl {
   FlownWindow flown_at;
   Setpoint last_setpoint;
   MissionClock clock;
+  bool held_by_fence = false;
   bool stands_down = false;  ///< aborted after the mission's end: no longer keeps its place
 
   std::string waiting() const { return "waiting for start; " + whatIsAssumed(params.commit); }
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
+  std::string byFence() const {
+    return held_by_fence ? "; the fence (limits/fence_radius_m) holds the vehicle" : "";
+  }
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   bool isInOpening(const Situation& situation) const {
     return state == State::kCommit && situation.vehicle && mission.committed &&
@@ -115,7 +119,7 @@ struct Navigator::Impl {
     if (!isLive()) return staying();
     if (!input.engaged) return stop(Event::kDisengaged, "the vehicle no longer follows setpoints");
     const std::string timed_out = whatTimedOut(state, clock, params.timeouts);
-    if (!timed_out.empty()) return stop(Event::kGiveUp, timed_out);
+    if (!timed_out.empty()) return stop(Event::kGiveUp, timed_out + byFence());
     if (mission.from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
       return stop(Event::kGiveUp, "outside the fence");
     const double turned_rad = observer.turnedRad();
@@ -154,6 +158,7 @@ struct Navigator::Impl {
   }
 
   Setpoint setpointFor(const Decision& decision, const Situation& situation) {
+    held_by_fence = false;
     if (!mayHaveVelocity(state) || !situation.vehicle) return limiter.stop();
     Setpoint wish = decision.wish;
     if (decision.keeps_place) {
@@ -162,6 +167,7 @@ struct Navigator::Impl {
       if (wish.velocity_odom_mps.z() == 0.0) wish.velocity_odom_mps.z() = back.z();
     }
     Setpoint limited = limiter.limit(wish, situation.dt_sec);
+    held_by_fence = isHeldByFence(limited.velocity_odom_mps, situation, mission, params);
     limited.velocity_odom_mps =
         permittedVelocity(limited.velocity_odom_mps, state, situation, mission, params);
     return limiter.cutTo(limited);
@@ -278,7 +284,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   output.setpoint.heading_error_rad = self.monitor.odometry().headingErrorRad();
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
-  output.reason = self.reason;
+  output.reason = self.reason + self.byFence();
   output.report = self.reportOn(situation);
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;

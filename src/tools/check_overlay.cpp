@@ -125,13 +125,17 @@ void checkTransport(const Options& o, const std::string& file, const configurati
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
-  const double speed = overlay.ingress_navigator.navigator.limits.speed_mps;
-  const double guarded = overlay.setpoint_guard.max_speed_mps;
-  if (speed >= guarded)
-    tools::warn(
-        formatted("setpoint_guard/max_speed_mps %g is not above ingress_navigator/navigator/limits/speed_mps "
-                  "%g: the guard replaces faster setpoints by zero",
-                  guarded, speed));
+  const auto check = [](const char* limit, double guarded, const char* name, double told) {
+    if (told >= guarded)
+      tools::warn(
+          formatted("setpoint_guard/%s %g is not above ingress_navigator/navigator/limits/%s %g: the guard "
+                    "replaces faster setpoints by zero",
+                    limit, guarded, name, told));
+  };
+  const auto& limits = overlay.ingress_navigator.navigator.limits;
+  const auto& guard = overlay.setpoint_guard;
+  check("max_speed_mps", guard.max_speed_mps, "speed_mps", limits.speed_mps);
+  check("max_yaw_rate_radps", guard.max_yaw_rate_radps, "yaw_rate_radps", limits.yaw_rate_radps);
 }
 
 void checkCameraPose(const std::string& text, const navigation::VehicleParams& vehicle) {
@@ -227,6 +231,8 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
 // Faults of the parameter file are reported where it is loaded.
 void checkScenario(const Options& o, configuration::Overlay& overlay, tools::InputFaults& faults) {
   const auto scenario = simulation::loadScenario(o.scenario, o.seed);
+  if (!o.flown_by.empty() && scenario.vehicle.profile == "external")
+    throw InputError(o.scenario + ": vehicle: external is simulated elsewhere: start external.launch");
   if (!tools::InputFaults().collect([&] { overlay = tools::flownIn(scenario, given(o.flown_by)); })) return;
   const std::string other = tools::otherSizes(overlay, scenario);
   if (other.empty()) return;

@@ -316,7 +316,7 @@ def test_a_reference_file_is_taken_as_params(tmp_path, image):
     assert done.returncode == 0 and "a window in 0 of 1 images" in done.stdout, done.stderr
     assert_refused(reference_of(tmp_path, image, "window_detector: {{reference: {{picture: '{}', corners: [1, 2]}}}}"), 2, "eight numbers")
     nowhere = "window_detector: {{reference: {{picture: '{}.none'}}}}"
-    assert_refused(reference_of(tmp_path, image, nowhere), 2, "cannot be read as an image")
+    assert_refused(reference_of(tmp_path, image, nowhere), 2, "no such file")
 
 
 OVERLAY_TOOLS = {

@@ -165,6 +165,10 @@ def test_each_remedy_is_reached():
 
 def test_the_frame_that_came_is_the_one_to_be_given():
     assert remedies.remedy("/odom (1 publisher) refused, 9 so far: header.frame_id is 'map', expected 'odom'") == f"{remedies.AGAIN} odom_frame:=map"
+    body = remedies.remedy("/odom (1 publisher) refused, 361 so far: child_frame_id is 'base_footprint', expected 'base_link'")
+    assert "vehicle: {base_frame: base_footprint}" in body
+    imu = remedies.remedy("/imu (1 publisher) refused, 9 so far: the IMU's header.frame_id is 'imu_link', expected 'base_link'")
+    assert "odom_frame" not in imu and "base_link" in imu
 
 
 def test_what_two_nodes_refuse_alike_is_mended_once(doctor, capsys):

@@ -149,6 +149,17 @@ def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_pa
     assert f"{scenario}:2: start/distanse_m: unknown key" in said and f"{scenario}:3: start/distance_m = 99 is not within" in said
 
 
+def test_a_vehicle_that_is_simulated_elsewhere_is_not_flown_by_the_simulation():
+    said = refusal(ROOT / "launch/sim.launch", f"scenario:={ROOT}/config/scenarios/external.yaml")
+    assert "external.yaml: vehicle: external is simulated elsewhere: start external.launch" in said
+
+
+def test_a_guard_that_forbids_the_search_to_turn_is_told(tmp_path):
+    (tmp_path / "drone.yaml").write_text("setpoint_guard: {max_yaw_rate_radps: 0.3}")
+    assert "max_yaw_rate_radps 0.3 is not above ingress_navigator/navigator/limits/yaw_rate_radps 0.5" in run(
+        "check_overlay", tmp_path / "drone.yaml").stderr
+
+
 def test_a_reference_that_is_not_there_is_one_line(tmp_path):
     done = run("check_overlay", "--reference", tmp_path / "none.png")
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and "no such file" in done.stderr

@@ -17,6 +17,13 @@ REMEDIES = (
     ("sizes differ", "set the camera to the size it was calibrated for, or calibrate again: doc/window.md"),
     ("frames differ", "give image and camera_info of one camera, under one frame_id"),
     ("stamps of image and", "give image and camera_info of one camera; let one clock stamp both"),
+    ("the IMU's header.frame_id is", "let the IMU's driver stamp base_link (MAVROS: imu/frame_id), or the frame that vehicle/base_frame names"),
+    ("child_frame_id is", "in the file of config:= vehicle: {base_frame: ITS_FRAME}, if that is the body's frame"),
+    ("odometry stuck", "restart the estimator or its driver: its messages arrive, but the pose in them never changes; then "
+                       "scripts/run rosservice call /ingress_navigator/reset"),
+    ("no odometry near the exposure", "odometry and images must be stamped by one clock and arrive within 0.2 s: MAVROS's timesync, chrony; in a replay "
+                                      "rosbag decompress, or rate:=0.3"),
+    ("holds the vehicle", "a larger limits/fence_radius_m, or start nearer to the window"),
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
     ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
@@ -47,7 +54,7 @@ REMEDIES = (
 
 def remedy(text):
     mend = next((mend for words, mend in REMEDIES if words in text), "doc/troubleshooting.md")
-    came = re.search("header.frame_id is '(.+?)'", text)
+    came = re.search("frame_id is '(.+?)'", text)
     return mend.replace("ITS_FRAME", came[1]) if came else mend
 
 

@@ -4,6 +4,7 @@ from ingress_tools.remedies import AGAIN, another_topic, remedy
 
 SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
 DAY_S = 86400.0
+LATE_S = 0.27  # close to the age at which the navigator no longer flies at a window
 
 
 def is_of_world(system, topic):
@@ -50,6 +51,9 @@ def check_age(report, topic, publisher, sample, **place):
     elif not -0.1 <= age <= 0.5:
         report.error(f"{text}, stamps {abs(age):.2f} s {'old' if age > 0.0 else 'ahead of the clock'}",
                      "synchronise the clocks (chrony); let the driver stamp at the exposure", [topic], **place)
+    elif age > LATE_S:
+        report.warn(f"{text}, stamps {age:.2f} s old: windows older than ingress_navigator/navigator/input/max_target_age_sec are not flown at",
+                    "a driver with less delay; synchronise the clocks (chrony, MAVROS's timesync)", [topic], **place)
     else:
         report.ok(f"{text}, {1e3 * age:.0f} ms old")
 

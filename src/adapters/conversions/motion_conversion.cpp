@@ -105,7 +105,7 @@ Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, c
 Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame) {
   const auto stamp_sec = stampSec(message.header.stamp);
   if (!stamp_sec) return {std::nullopt, kNoStamp};
-  const std::string fault = frameFault("header.frame_id", message.header.frame_id, base_frame);
+  const std::string fault = frameFault("the IMU's header.frame_id", message.header.frame_id, base_frame);
   if (!fault.empty()) return {std::nullopt, fault};
   if (message.orientation_covariance[0] == -1.0)
     return {std::nullopt, "the IMU says that it has no orientation (covariance -1)"};

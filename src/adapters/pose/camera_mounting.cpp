@@ -42,9 +42,7 @@ Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose) {
 /// Publishes the camera's mounting on tf_static: base, camera_link (forward, left, up) and the optical frame.
 class CameraMountingNode : public Node {
  public:
-  CameraMountingNode(ros::NodeHandle& nh, const CameraMountingParams& params) {
-    FrameNames frames;
-    frames.base = params.base_frame;
+  CameraMountingNode(ros::NodeHandle& nh, const CameraMountingParams& params, const FrameNames& frames) {
     tf2_msgs::TFMessage message;
     message.transforms =
         mountingOf(T_base_cameraOf(params.pose), ros::Time::now(), frames, params.camera_frame);
@@ -57,7 +55,9 @@ class CameraMountingNode : public Node {
 };
 
 std::unique_ptr<Node> makeCameraMounting(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
-  return std::make_unique<CameraMountingNode>(nh, readParameters<CameraMountingParams>(pnh));
+  navigation::VehicleParams vehicle;
+  const auto params = readParameters<CameraMountingParams>(nh, pnh, vehicle);
+  return std::make_unique<CameraMountingNode>(nh, params, vehicle.frames);
 }
 
 }  // namespace window_ingress::adapters

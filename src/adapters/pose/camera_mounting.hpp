@@ -10,12 +10,10 @@ struct CameraMountingParams {
   /// x, y, z [m, at most 2], yaw, pitch, roll [rad, at most half a turn] of the camera in the body, x
   /// forward, y left, z up
   std::vector<double> pose;
-  std::string base_frame = "base_link";               ///< frame of the body
   std::string camera_frame = "camera_optical_frame";  ///< frame of the images
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("pose", self.pose);
-    field("base_frame", self.base_frame);
     field("camera_frame", self.camera_frame);
   }
 };

@@ -115,4 +115,12 @@ Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, Stat
   return withinFence(velocity, position_m, mission, params);
 }
 
+bool isHeldByFence(const Eigen::Vector3d& velocity_odom_mps, const Situation& situation,
+                   const MissionState& mission, const NavigatorParams& params) {
+  if (!situation.vehicle) return false;
+  const Eigen::Vector3d within =
+      withinFence(velocity_odom_mps, situation.vehicle->T_odom_base.translation(), mission, params);
+  return within.norm() < 0.1 && (velocity_odom_mps - within).norm() > 1e-3;
+}
+
 }  // namespace window_ingress::navigation

@@ -22,4 +22,8 @@ Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, Stat
                                   const Situation& situation, const MissionState& mission,
                                   const NavigatorParams& params);
 
+/// The fence leaves next to nothing of this velocity.
+bool isHeldByFence(const Eigen::Vector3d& velocity_odom_mps, const Situation& situation,
+                   const MissionState& mission, const NavigatorParams& params);
+
 }  // namespace window_ingress::navigation

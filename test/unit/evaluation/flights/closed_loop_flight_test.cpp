@@ -80,6 +80,15 @@ TEST(ClosedLoopFlight, AStartThatIsRefusedSaysWhy) {
   EXPECT_TRUE(test::says(flight.reason, "above limits/max_height_m")) << flight.reason;
 }
 
+TEST(ClosedLoopFlight, AFenceBeforeTheWindowIsNamed) {
+  FlightParams params;
+  params.without_images = true;
+  params.ingress_navigator.navigator.limits.fence_radius_m = 1.0;
+  const FlightResult flight = flyOnce(shortFlight(), 1, params);
+  EXPECT_NE(flight.outcome, Outcome::kPassed);
+  EXPECT_TRUE(test::says(flight.reason, "fence_radius_m")) << flight.reason;
+}
+
 TEST(ClosedLoopFlight, ACameraTurnedByTenDegreesIsFoundBesideAHeadingThatIsOff) {
   auto scenario = ofArduCopter("arducopter_4_0_default", -0.4, -1.0);
   scenario.camera.told_yaw_error_rad = 10.0 * M_PI / 180.0;
