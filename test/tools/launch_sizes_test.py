@@ -68,7 +68,7 @@ def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said
         assert run("check_overlay", config, *arguments).returncode == 0
     assert ("(assumed: " in run("check_overlay", config).stderr) != is_said
     assert "(assumed: " not in run("check_overlay", config, "--window-size", "1.3,1.1").stderr
-    assert " is missing" not in run("check_overlay", config, "--needs-window-size", "true", "--window-size", "abc").stderr
+    assert "measure it and give window_size" not in run("check_overlay", config, "--needs-window-size", "true", "--window-size", "abc").stderr
 
 
 @pytest.mark.parametrize("vehicle", [{}, {"half_width_m": 0.3, "half_height_m": 0.1}])
