@@ -115,12 +115,11 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
 }
 
 // How well the ring fits; where the shape is known, covered parts do not count.
-double RingAlignment::fit() const {
+double RingAlignment::fit() {
   if (!leaves_out_) return correlationOf(segments_).mean();
-  thread_local std::vector<WeightedSum> parts;
-  parts.clear();
-  for (const RingSegment& segment : segments_) addParts(segment.alike, segment, parts);
-  return meanUncovered(parts);
+  parts_.clear();
+  for (const RingSegment& segment : segments_) addParts(segment.alike, segment, parts_);
+  return meanUncovered(parts_);
 }
 
 // The change of the homography that removes most of the residuals; none if the samples do not determine one.

@@ -68,7 +68,7 @@ class RingAlignment {
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
   double beyondChance(double correlation) const;
   double partInView(int side) const;
-  double fit() const;
+  double fit();
   std::optional<int> hiddenSide();
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   double refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
@@ -80,6 +80,7 @@ class RingAlignment {
   std::optional<RectanglePrior> prior_;
   bool leaves_out_ = false;  ///< covered parts: three sides determine a rectangle of known shape
   std::vector<RingSegment> segments_;
+  std::vector<WeightedSum> parts_;
   std::vector<float> residuals_;
   Matrix8f normal_;       ///< of the last change
   Matrix8f information_;  ///< of the best map, from its last change and the residual spread

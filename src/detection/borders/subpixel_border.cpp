@@ -53,28 +53,28 @@ void SubpixelBorder::project(const EdgeProfiles& profiles, const Eigen::Vector3f
 
 bool SubpixelBorder::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
   const int radius = static_cast<int>(std::ceil(radius_px)), width = profiles.width();
-  thread_local std::vector<float> mean, sizes;
-  thread_local std::vector<Eigen::Vector3f> changes;  // of the mean colour over two pixels, by offset
-  mean.assign(static_cast<std::size_t>(3) * width, 0.0f), sizes.clear(), changes.clear();
-  profiles.mean(0, profiles.count(), mean.data());
+  mean_.assign(static_cast<std::size_t>(3) * width, 0.0f);
+  sizes_.clear();
+  changes_.clear();
+  profiles.mean(0, profiles.count(), mean_.data());
   const bool soft = isColourSoft(profiles);
   int strongest = radius;
   double most = 0.0;
   for (int o = -radius; o <= radius; ++o) {
     Eigen::Vector3f change;
     for (int c = 0; c < 3; ++c) {
-      const float* at = mean.data() + (profiles.channels() == 1 ? 0 : c) * width + profiles.reach() + o;
+      const float* at = mean_.data() + (profiles.channels() == 1 ? 0 : c) * width + profiles.reach() + o;
       change[c] = at[1] - at[-1];
     }
-    changes.push_back(soft ? resolvedPart(change) : change);
-    sizes.push_back(changes.back().norm());
-    const double weight = sizes.back() * std::exp(-0.5 * std::pow(o / (0.6 * radius_px), 2));
+    changes_.push_back(soft ? resolvedPart(change) : change);
+    sizes_.push_back(changes_.back().norm());
+    const double weight = sizes_.back() * std::exp(-0.5 * std::pow(o / (0.6 * radius_px), 2));
     if (weight > most) most = weight, strongest = o + radius;
   }
-  project(profiles, most > 0.0 ? Eigen::Vector3f(changes[strongest] / sizes[strongest])
+  project(profiles, most > 0.0 ? Eigen::Vector3f(changes_[strongest] / sizes_[strongest])
                                : Eigen::Vector3f::Constant(1.0f / std::sqrt(3.0f)));
-  for (std::size_t k = 1; k + 1 < sizes.size(); ++k)
-    if (sizes[k] > kFaintestChange && sizes[k] >= sizes[k - 1] && sizes[k] >= sizes[k + 1]) return true;
+  for (std::size_t k = 1; k + 1 < sizes_.size(); ++k)
+    if (sizes_[k] > kFaintestChange && sizes_[k] >= sizes_[k - 1] && sizes_[k] >= sizes_[k + 1]) return true;
   return false;
 }
 

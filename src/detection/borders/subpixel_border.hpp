@@ -64,6 +64,8 @@ class SubpixelBorder {
   const EdgeProfiles* profiles_ = nullptr;
   std::vector<float> slopes_;  // of the projected profiles [grey levels per pixel]
   std::vector<double> positions_, offsets_;
+  std::vector<float> mean_, sizes_;       // the side's mean profile; sizes of its changes
+  std::vector<Eigen::Vector3f> changes_;  // of the mean colour over two pixels, by offset
 };
 
 }  // namespace window_ingress::detection
