@@ -21,8 +21,8 @@ REMEDIES = (
     ("child_frame_id is", "in the file of config:= vehicle: {base_frame: ITS_FRAME}, if that is the body's frame"),
     ("odometry stuck", "restart the estimator or its driver: its messages arrive, but the pose in them never changes; then "
                        "scripts/run rosservice call /ingress_navigator/reset"),
-    ("no odometry near the exposure", "odometry and images must be stamped by one clock and arrive within 0.2 s: MAVROS's timesync, chrony; in a replay "
-                                      "rosbag decompress, or rate:=0.3"),
+    ("no odometry near the exposure", "odometry and images must be stamped by one clock (MAVROS's timesync, chrony), and odometry may come "
+                                      "later than the images by homography_pose/odom_wait_sec; in a replay rosbag decompress, or rate:=0.3"),
     ("holds the vehicle", "a larger limits/fence_radius_m, or start nearer to the window"),
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
     ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
