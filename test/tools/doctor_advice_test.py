@@ -163,6 +163,13 @@ def test_each_remedy_is_reached():
         assert remedies.remedy(f"so {words} it is") == mend, number
 
 
+@pytest.mark.parametrize("age_s, levels", [(0.12, []), (0.31, ["WARN"]), (0.7, ["ERROR"]), (-0.2, ["ERROR"])])
+def test_messages_that_come_late_are_told(age_s, levels):
+    report = findings.Report()
+    topic_checks.check_age(report, "/odom", "/driver", types.SimpleNamespace(age_s=lambda: age_s, rate_hz=lambda: 50.0))
+    assert [finding.level for finding in report.findings] == levels
+
+
 def test_the_frame_that_came_is_the_one_to_be_given():
     assert remedies.remedy("/odom (1 publisher) refused, 9 so far: header.frame_id is 'map', expected 'odom'") == f"{remedies.AGAIN} odom_frame:=map"
     body = remedies.remedy("/odom (1 publisher) refused, 361 so far: child_frame_id is 'base_footprint', expected 'base_link'")
