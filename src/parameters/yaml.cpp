@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <ios>
+#include <iterator>
 #include <sstream>
 #include <type_traits>
 
@@ -43,6 +44,12 @@ bool isIndentedByTabs(const std::string& file) {
   return false;
 }
 
+// yaml-cpp reads UTF-16 and UTF-32, roslaunch does not. Their ASCII letters contain zeros.
+bool holdsZeros(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return std::find(std::istreambuf_iterator<char>(stream), {}, '\0') != std::istreambuf_iterator<char>();
+}
+
 bool isNumber(const YAML::Node& word) {
   double number = 0.0;
   return YAML::convert<double>::decode(word, number);
@@ -53,6 +60,7 @@ bool isNumber(const YAML::Node& word) {
 YAML::Node loadYaml(const std::string& file) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file);
+    if (holdsZeros(file)) throw InputError(file + ": is not plain text; save it as UTF-8");
     if (documents.size() > 1)
       throw InputError(file + ": holds " + std::to_string(documents.size()) +
                        " documents separated by '---'; only one is allowed");

@@ -87,6 +87,10 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_TRUE(test::says(error("a:\n\tb: {c: 1}\n"), "yaml does not allow tabs"));
   EXPECT_TRUE(test::says(error("fast: true\n---\nfast: false\n"), "holds 2 documents"));
   EXPECT_TRUE(test::says(error("- 1\n"), "must be a mapping"));
+  EXPECT_TRUE(test::says(error(std::string("\xff\xfe"
+                                           "1\0\n\0",
+                                           6)),
+                         "save it as UTF-8"));
 }
 
 // Nodes read the same file through ROS, which treats these as texts, or reads "010" as eight.
