@@ -91,7 +91,7 @@ def test_a_tools_own_name_is_answered_with_its_command(words):
     tool = ingress.COMMANDS[words][0]
     if tool in ingress.names_after(None):
         return  # the command has the tool's name
-    for name in (tool, tool.removesuffix(".py")):
+    for name in (tool, os.path.splitext(tool)[0]):
         done = call(INGRESS, name)
         assert done.returncode == 2 and f"no command '{name}'; that tool is 'ingress {words}'" in done.stderr, done.stderr
 

@@ -38,7 +38,8 @@ struct DetectorNodeParams {
   std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
   bool use_imu = true;     ///< predict tracks with the vehicle's attitude from `imu`, if messages arrive
   double budget_ms = 0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
-  bool lockstep = false;   ///< run step by step with the simulated world; only with use_sim_time
+  double max_rate_hz = 0.0;  ///< images used a second at most; 0: all; not in lockstep or replays [1/s]
+  bool lockstep = false;     ///< run step by step with the simulated world; only with use_sim_time
   ImageLimits image;
   ReferenceParams reference;
   detection::DetectorParams detector;
@@ -48,6 +49,7 @@ struct DetectorNodeParams {
     field("image_transport", self.image_transport);
     field("use_imu", self.use_imu);
     field("budget_ms", self.budget_ms, 0.0, 10000.0);
+    field("max_rate_hz", self.max_rate_hz, 0.0, 1000.0);
     field("lockstep", self.lockstep);
     field.group("image", self.image);
     field.group("reference", self.reference);

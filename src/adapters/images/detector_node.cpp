@@ -38,6 +38,7 @@ class DetectorNode : public Node {
         camera_(nh, diagnostics_, vehicle_.image_is_rectified),
         images_(nh, diagnostics_, params_.image_transport, params_.image,
                 limitsFor(params_.lockstep, vehicle_.stamps),
+                RateLimit(params_.lockstep ? 0.0 : params_.max_rate_hz),
                 [this](const auto& header, const auto& decoded) { receive(header, decoded); }),
         tuning_(pnh, params_.detector,
                 [this](const auto& params) { perception_.setParams(params_.detector = params); }),

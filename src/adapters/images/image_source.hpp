@@ -13,6 +13,7 @@
 
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/images/stuck_camera.hpp"
+#include "adapters/inputs/rate_limit.hpp"
 #include "adapters/inputs/topic_input.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -40,8 +41,9 @@ class ImageSource {
 
   /// \throws InputError that lists the transports if this one does not exist
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
-              const ImageLimits& limits, const StampLimits& stamps, Callback callback)
+              const ImageLimits& limits, const StampLimits& stamps, const RateLimit& rate, Callback callback)
       : limits_(limits),
+        rate_(rate),
         callback_(std::move(callback)),
         diagnostics_(diagnostics),
         input_(diagnostics, "image", stamps),
@@ -80,7 +82,7 @@ class ImageSource {
   }
 
   void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode) {
-    if (!input_.admits(header.stamp)) return;
+    if (!input_.admits(header.stamp) || !rate_.admits(header.stamp.toSec())) return;
     const double begun_sec = steadyNowSec();
     DecodedImage decoded = decode();
     decoded.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
@@ -93,6 +95,7 @@ class ImageSource {
   }
 
   ImageLimits limits_;
+  RateLimit rate_;
   StuckCamera camera_;
   Callback callback_;
   Diagnostics& diagnostics_;
