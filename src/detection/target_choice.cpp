@@ -54,12 +54,10 @@ double TargetChoice::leastScore(const ScoredCandidate& candidate) const {
 
 // An aligned place must show its borders, because the opening may have been walled up. If all of its
 // surroundings match, it is enough that the inside differs from the wall.
-bool TargetChoice::showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found,
-                                const View& view) const {
+bool TargetChoice::showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found) const {
   if (!candidate.correlation) return true;
   if (found.seen < reference_.bordersNeeded(candidate.match)) return false;
-  return (found.seen >= kFewestSeen && !reference_.frameless()) ||
-         reference_.showsOpening(view.image, found.corners, view.camera);
+  return (found.seen >= kFewestSeen && !reference_.frameless()) || reference_.showsOpening(found.corners);
 }
 
 std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& candidate) const {
@@ -99,26 +97,26 @@ std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, co
 std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrilateral& place,
                                                         const View& view) const {
   if (!view.camera) return std::nullopt;
-  const auto ring = reference_.surroundingsOf(place, view.image, view.camera, RingMatcher::kFollowedStartPx);
+  reference_.see(view.image, view.camera);
+  const auto ring = reference_.surroundingsOf(place, RingMatcher::kFollowedStartPx);
   return ring ? fitWhere(*ring, view) : std::nullopt;
 }
 
 // Another window with common features is aligned, too; its borders contradict the alignment.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& candidate, const View& view,
                                                            RefinedBorders& fitted) {
-  const auto ring =
-      reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
+  const auto ring = reference_.surroundingsOf(fitted.corners, RingMatcher::kFoundStartPx);
   ring_there_ = ring ? ring->correlation : 0.0;
   if (!ring) {
-    if (reference_.frameTells(view.image, candidate.border_score)) return std::nullopt;
+    if (reference_.frameTells(candidate.border_score)) return std::nullopt;
     return Rejection{RejectReason::kUnlike, 0.0, params_.min_correlation};
   }
   if (!candidate.correlation)
-    if (auto fault = reference_.objectionTo(*ring, view.image, candidate.appearance)) return fault;
+    if (auto fault = reference_.objectionTo(*ring, candidate.appearance)) return fault;
   const auto anew = fitWhere(*ring, view);
   if (!anew) return std::nullopt;
   const auto agreeing = std::count(anew->fitted.begin(), anew->fitted.end(), true);
-  if (agreeing >= kFewestSeen || !reference_.objectionTo(fitted, view.image, view.camera)) fitted = *anew;
+  if (agreeing >= kFewestSeen || !reference_.objectionTo(fitted)) fitted = *anew;
   return std::nullopt;
 }
 
@@ -127,18 +125,18 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& candidate, con
                                            RefinedBorders& fitted) {
   double inliers = 0.0;
   const auto found = refine(candidate, view, inliers);
-  if (!found || !showsOpening(candidate, *found, view))
+  if (!found || !showsOpening(candidate, *found))
     return Rejection{RejectReason::kRefinement, inliers, kMinBorderInliers};
   fitted = *found;
   if (candidate.correlation && found->seen == kAllSeen)
-    if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
+    if (const auto fault = reference_.objectionTo(fitted)) return fault;
   if (const auto fault = judgeSurroundingsOf(candidate, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
   if (const double inside = geometry::distanceToBorder(fitted.corners, view.image.cols, view.image.rows);
       inside < least)
     return Rejection{RejectReason::kBorder, inside, least};
-  if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
-  if (ring_there_ < kWholeRing && reference_.frameGoesOn(view.image, fitted.corners, view.camera))
+  if (const auto fault = reference_.objectionTo(fitted)) return fault;
+  if (ring_there_ < kWholeRing && reference_.frameGoesOn(fitted.corners))
     return Rejection{RejectReason::kUnlike, ring_there_, kWholeRing};
   uncover(view, fitted);
   return std::nullopt;
@@ -146,7 +144,7 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& candidate, con
 
 // The edge of an object before a side may have been mistaken for the side's border.
 void TargetChoice::uncover(const View& view, RefinedBorders& fitted) {
-  const auto ring = reference_.uncovered(fitted.corners, view.image, view.camera);
+  const auto ring = reference_.uncovered(fitted.corners);
   const auto anew = ring ? fitWhere(*ring, view) : std::nullopt;
   if (anew && std::count(anew->fitted.begin(), anew->fitted.end(), true) >= kFewestSeen) fitted = *anew;
 }

@@ -30,7 +30,8 @@ class TargetChoice {
   };
   using IsWanted = std::function<bool(const geometry::Quadrilateral&)>;
 
-  /// \param candidates are sorted here \param search_factor image pixels per pixel of the search level
+  /// The reference's judge must see the same image. \param candidates are sorted here \param search_factor
+  /// image pixels per pixel of the search level
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& candidates, int search_factor,
                                           const View& view);
 
@@ -57,7 +58,7 @@ class TargetChoice {
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& candidate, const View& view,
                                                RefinedBorders& fitted);
   void uncover(const View& view, RefinedBorders& fitted);
-  bool showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found, const View& view) const;
+  bool showsOpening(const ScoredCandidate& candidate, const RefinedBorders& found) const;
   double leastScore(const ScoredCandidate& candidate) const;
   void record(const ScoredCandidate& candidate, RejectReason reason, double value, double limit) {
     trace_.candidates.push_back(traceOf(candidate, {reason, value, limit}));

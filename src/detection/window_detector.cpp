@@ -51,7 +51,7 @@ struct WindowDetector::Impl {
 
   std::optional<WindowObservation> judgeFrames(const View& view) {
     candidates = search.kept();
-    const bool compared = reference.judgeFrames(view.image, view.camera, candidates);
+    const bool compared = reference.judgeFrames(candidates);
     if (!compared || !reference.knowsBorders()) judgeNestedQuads(view.image, search.factor(), candidates);
     return choose(view);
   }
@@ -60,14 +60,14 @@ struct WindowDetector::Impl {
   std::optional<WindowObservation> judgeFrameAlone(const View& view) {
     candidates = found_first;
     candidates.insert(candidates.end(), search.kept().begin(), search.kept().end());
-    if (!reference.judgeFrames(view.image, view.camera, candidates)) return std::nullopt;
+    if (!reference.judgeFrames(candidates)) return std::nullopt;
     for (ScoredCandidate& candidate : candidates)
       if (!candidate.located || !candidate.appearance) candidate.verdict = RejectReason::kDuplicate;
     return choose(view);
   }
 
   std::optional<WindowObservation> judgeSurroundings(const View& view) {
-    if (!reference.judgeSurroundings(view.image, view.camera, candidates)) return std::nullopt;
+    if (!reference.judgeSurroundings(candidates)) return std::nullopt;
     return choose(view);
   }
 
@@ -75,8 +75,8 @@ struct WindowDetector::Impl {
   // agree. Unless they do so surely, they are searched, too, and a different window found there wins.
   std::optional<WindowObservation> judge(const View& view) {
     std::optional<WindowObservation> window;
-    if (!reference.frameless() || !reference.compares(view.image)) window = judgeFrames(view);
-    if (!reference.knowsSurroundings(view.image)) return window;
+    if (!reference.frameless() || !reference.compares()) window = judgeFrames(view);
+    if (!reference.knowsSurroundings()) return window;
     const double agreement = window ? choice.ringThere() : 0.0;
     if (window && agreement == 0.0) choice.takeBack(), window.reset();
     const auto ask_surroundings = [&] {
@@ -85,7 +85,7 @@ struct WindowDetector::Impl {
     };
     if (agreement < kSureRing) gatherAll(), ask_surroundings();
     if (!window && !everywhere)
-      candidates = everywhere.emplace(reference.placesEverywhere(view.image)), ask_surroundings();
+      candidates = everywhere.emplace(reference.placesEverywhere()), ask_surroundings();
     return window;
   }
 
@@ -122,6 +122,7 @@ struct WindowDetector::Impl {
       return std::nullopt;
     }
     search.run(view.image, view.camera, trace);
+    reference.see(view.image, view.camera);
     auto window = judge(view);
     if (!window) {
       searchOnColours();

@@ -40,9 +40,8 @@ void leaveOut(int side, std::vector<RingSegment>& segments) {
 
 }  // namespace
 
-void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
-                        bool covered) {
-  view_.set(model, image, camera, covered);
+void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
+  view_.set(model, image, camera);
   prior_.reset();
   if (model.aspect)
     prior_ = camera ? RectanglePrior(*camera, *model.aspect) : RectanglePrior(image.size(), *model.aspect);

@@ -31,9 +31,10 @@ struct AlignedRing {
 class RingAlignment {
  public:
   /// \param model, image must outlive the comparisons \param camera null: the image has no distortion
-  /// \param covered something stands before the ring: samples that do not fit are left out from the start
-  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
-           bool covered = false);
+  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
+
+  /// Sets whether something stands before the ring: samples that do not fit are then left out from the start.
+  void setCovered(bool covered) { view_.setCovered(covered); }
 
   /// \param side_px resolution of the comparison, at most [px per mean side]
   double correlation(const geometry::Quadrilateral& quad, double side_px);

@@ -7,7 +7,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< [px per mean side]
+constexpr double kComparedPx = 20.0, kAlignedPx = 30.0;  ///< [px per mean side]
 constexpr double kRoughStartPx = 15.0;          ///< first resolution of an alignment from a rough place
 constexpr std::size_t kPlaces = 10;             ///< number of places aligned
 constexpr std::size_t kPlacesSearched = 6;      ///< number of places from a search without edges, at most
@@ -51,9 +51,9 @@ std::vector<RingMatcher::Promise> RingMatcher::compareAll(Candidates& candidates
   return order;
 }
 
-Candidates RingMatcher::placesEverywhere(const cv::Mat& image, bool leaning) {
+Candidates RingMatcher::placesEverywhere(bool leaning) {
   Candidates candidates;
-  for (const RingSearch::Place& place : search_.run(image, kPlacesSearched, leaning)) {
+  for (const RingSearch::Place& place : search_.run(image_, kPlacesSearched, leaning)) {
     ScoredCandidate& candidate = candidates.emplace_back();
     candidate.quad = place.quad;
     candidate.found.source = CandidateSource::kReference;
@@ -89,23 +89,8 @@ RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   return match;
 }
 
-std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                                  const geometry::Quadrilateral& quad, double coarsest_px) {
-  alignment_.set(model_, image, camera, covered_);
-  return alignment_.align(quad, kFinestPx, coarsest_px);
-}
-
-std::optional<AlignedRing> RingMatcher::uncovered(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                                  const geometry::Quadrilateral& quad) {
-  alignment_.set(model_, image, camera, covered_);
-  return alignment_.uncovered(quad, kFinestPx);
-}
-
-Candidates RingMatcher::align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                              Candidates& candidates) {
+Candidates RingMatcher::align(Candidates& candidates) {
   Candidates found;
-  if (!known()) return found;
-  alignment_.set(model_, image, camera, covered_);
   std::vector<std::size_t> places;
   struct {
     double score = 0.0, promise = 0.0;

@@ -26,33 +26,42 @@ class RingMatcher {
   }
   bool known() const { return model_.known(); }
 
+  /// Sets the image that all calls below are about. The ring must be known.
+  /// \param image CV_8UC3; must outlive these calls, as must `camera`
+  void see(const cv::Mat& image, const geometry::PinholeCamera* camera) {
+    image_ = image;
+    alignment_.set(model_, image_, camera);
+  }
+
   /// Sets whether something stands before the ring. See RingAlignment.
-  void setCovered(bool covered) { covered_ = covered; }
+  void setCovered(bool covered) { covered_ = covered, alignment_.setCovered(covered); }
 
   /// Aligned candidates, best first, each place once; the score combines the correlations. Stores the
-  /// correlation of every candidate before its alignment. \param image CV_8UC3
-  std::vector<ScoredCandidate> align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                     std::vector<ScoredCandidate>& candidates);
+  /// correlation of every candidate before its alignment.
+  std::vector<ScoredCandidate> align(std::vector<ScoredCandidate>& candidates);
 
-  /// Places where the ring may be, found without edges, see RingSearch. \param image CV_8UC3
-  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image, bool leaning = true);
+  /// Places where the ring may be, found without edges, see RingSearch.
+  std::vector<ScoredCandidate> placesEverywhere(bool leaning = true);
 
-  /// Best fit of the ring near this place; nothing where it does not fit. The ring must be known.
+  /// Best fit of the ring near this place; nothing where it does not fit.
   /// \param coarsest_px one of the above
-  std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       const geometry::Quadrilateral& quad, double coarsest_px);
-  /// Fit of the ring there, in the image of the last call; also for an image that is less sharp than the
-  /// reference.
+  std::optional<AlignedRing> alignedAt(const geometry::Quadrilateral& quad, double coarsest_px) {
+    return alignment_.align(quad, kFinestPx, coarsest_px);
+  }
+  /// Fit of the ring there; also for an image that is less sharp than the reference.
   RingMatch judged(const geometry::Quadrilateral& quad);
 
   /// See RingAlignment.
-  std::optional<AlignedRing> uncovered(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       const geometry::Quadrilateral& quad);
+  std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& quad) {
+    return alignment_.uncovered(quad, kFinestPx);
+  }
   std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& quad, int side) const {
     return alignment_.completed(quad, side);
   }
 
  private:
+  static constexpr double kFinestPx = 200.0;  ///< last resolution of an alignment [px per mean side]
+
   struct Promise {
     double score;       ///< correlation before alignment, with some of the score by geometry
     std::size_t index;  ///< of the candidate
@@ -63,6 +72,7 @@ class RingMatcher {
   RingModel model_;
   RingAlignment alignment_;
   RingSearch search_;
+  cv::Mat image_;
   bool covered_ = false;
 };
 

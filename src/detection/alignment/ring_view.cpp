@@ -121,10 +121,8 @@ Matrix3d mapFromCentre(const Quadrilateral& quad) {
   return geometry::UnitSquare(quad).matrix() * shift;
 }
 
-void RingView::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
-                   bool covered) {
+void RingView::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
   model_ = &model;
-  covered_ = covered;
   lens_ = geometry::lensOf(camera);
   pyramid_.set(image);
 }

@@ -52,8 +52,9 @@ class RingView {
   static constexpr float kNoise = 0.01F;   ///< of a logarithm of a colour
 
   /// \param model, image must outlive the view \param camera null: the image has no distortion
-  /// \param covered something stands before the ring: every `look` includes `coverOutliers`
-  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera, bool covered);
+  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
+  /// Sets whether something stands before the ring: every `look` then includes `coverOutliers`.
+  void setCovered(bool covered) { covered_ = covered; }
   bool covered() const { return covered_; }
   const geometry::PinholeCamera* lens() const { return lens_; }  ///< null: no distortion
 

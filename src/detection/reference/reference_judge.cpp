@@ -51,11 +51,15 @@ std::vector<const ScoredCandidate*> placesOf(const std::vector<ScoredCandidate>&
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
     : appearance_(params.appearance), min_correlation_(params.min_correlation) {}
 
-// Converts a grey image to three equal channels.
-const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& image) {
-  if (image.channels() != 1) return image;
-  cv::cvtColor(image, channels_, cv::COLOR_GRAY2BGR);
-  return channels_;
+void ReferenceJudge::see(const cv::Mat& image, const geometry::PinholeCamera* camera) {
+  image_ = bgr_ = image;
+  camera_ = camera;
+  compares_ = reference_ && isGrey(image) == is_grey_;
+  if (image.channels() == 1) {
+    cv::cvtColor(image, converted_, cv::COLOR_GRAY2BGR);
+    bgr_ = converted_;
+  }
+  if (knowsSurroundings()) ring_.see(bgr_, camera);
 }
 
 void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
@@ -67,21 +71,19 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   const cv::Mat& image = reference_->image();
   const geometry::Quadrilateral& opening = reference_->opening();
   if (!ReferenceAppearance::faultOf(image, opening).empty()) return;
-  borders_.learn(inChannels(image), opening);
+  see(image, nullptr);
+  borders_.learn(bgr_, opening);
   shape_.learn(image, opening);
-  ring_.learn(inChannels(image), opening, frameless() ? 1.0F : kColourOfFrames, shape_.aspect(),
-              !frameless());
-  open_borders_ = openBorders(image, opening, nullptr);
-  beyond_ = framesBeyond(inChannels(image), opening, nullptr, sides_);
+  ring_.learn(bgr_, opening, frameless() ? 1.0F : kColourOfFrames, shape_.aspect(), !frameless());
+  open_borders_ = openBorders(opening);
+  beyond_ = framesBeyond(bgr_, opening, nullptr, sides_);
   if (!frameless()) frame_colours_ = ringColours(image, opening, 1);
 }
 
 // The candidate with its borders moved to the reference's, if they are found near it.
-std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
-                                                      const geometry::PinholeCamera* camera,
-                                                      const ScoredCandidate& rough,
+std::optional<ScoredCandidate> ReferenceJudge::locate(const ScoredCandidate& rough,
                                                       const ReferenceBorders::Effort& effort) {
-  const auto found = borders_.locate(image, rough.quad, camera, effort);
+  const auto found = borders_.locate(bgr_, rough.quad, camera_, effort);
   if (!found) return std::nullopt;
   ScoredCandidate candidate = rough;
   candidate.quad = found->quad;
@@ -96,24 +98,21 @@ std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
 }
 
 // Finds the reference's borders at all places, and searches the best ones finely.
-std::vector<ScoredCandidate> ReferenceJudge::locateAll(const cv::Mat& image,
-                                                       const geometry::PinholeCamera* camera,
-                                                       const std::vector<ScoredCandidate>& candidates) {
+std::vector<ScoredCandidate> ReferenceJudge::locateAll(const std::vector<ScoredCandidate>& candidates) {
   std::vector<ScoredCandidate> located;
   for (const ScoredCandidate* place : placesOf(candidates))
-    if (auto candidate = locate(image, camera, *place, ReferenceBorders::kCoarse))
-      located.push_back(*candidate);
+    if (auto candidate = locate(*place, ReferenceBorders::kCoarse)) located.push_back(*candidate);
   sortByRank(located);
   for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
-    if (auto candidate = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *candidate;
+    if (auto candidate = locate(located[i], ReferenceBorders::kFine)) located[i] = *candidate;
   return located;
 }
 
 // Compares the candidates' frames with the reference's; false if none can be compared.
-bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const {
+bool ReferenceJudge::weigh(std::vector<ScoredCandidate>& candidates) const {
   bool any = false;
   for (ScoredCandidate& candidate : candidates) {
-    candidate.appearance = reference_->compare(image, candidate.quad, appearance_);
+    candidate.appearance = reference_->compare(image_, candidate.quad, appearance_);
     any = any || candidate.appearance;
     if (candidate.appearance) candidate.score = updated(candidate.score, candidate.appearance->odds);
   }
@@ -121,14 +120,14 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& c
 }
 
 // Lowers the score of loops whose borders were not located. Drops those where borders were surely located.
-void ReferenceJudge::weighOthers(const cv::Mat& image, const std::vector<ScoredCandidate>& located,
+void ReferenceJudge::weighOthers(const std::vector<ScoredCandidate>& located,
                                  std::vector<ScoredCandidate>& candidates) const {
   for (ScoredCandidate& candidate : candidates) {
     const bool sure = std::any_of(located.begin(), located.end(), [&](const ScoredCandidate& place) {
       return place.border_score > ReferenceBorders::kSureBorderScore &&
              Sameness(place.quad).samePlace(candidate.quad);
     });
-    candidate.appearance = sure ? std::nullopt : reference_->compare(image, candidate.quad, appearance_);
+    candidate.appearance = sure ? std::nullopt : reference_->compare(image_, candidate.quad, appearance_);
     if (sure)
       candidate.verdict = RejectReason::kDuplicate;
     else
@@ -141,25 +140,21 @@ std::optional<Eigen::Vector3f> ReferenceJudge::paint() const {
   return frame_colours_ ? frame_colours_->means.paint() : std::nullopt;
 }
 
-bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
-
-bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                 std::vector<ScoredCandidate>& candidates) {
-  if (!compares(image)) return false;
-  if (!borders_.known()) return weigh(image, candidates);
-  auto located = locateAll(inChannels(image), camera, candidates);
-  weigh(image, located);
-  weighOthers(image, located, candidates);
+bool ReferenceJudge::judgeFrames(std::vector<ScoredCandidate>& candidates) {
+  if (!compares_) return false;
+  if (!borders_.known()) return weigh(candidates);
+  auto located = locateAll(candidates);
+  weigh(located);
+  weighOthers(located, candidates);
   candidates.insert(candidates.end(), located.begin(), located.end());
   return true;
 }
 
-bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       std::vector<ScoredCandidate>& candidates) {
-  if (!knowsSurroundings(image)) return false;
-  auto located = ring_.align(inChannels(image), camera, candidates);
+bool ReferenceJudge::judgeSurroundings(std::vector<ScoredCandidate>& candidates) {
+  if (!knowsSurroundings()) return false;
+  auto located = ring_.align(candidates);
   for (ScoredCandidate& candidate : located)
-    candidate.appearance = reference_->compare(image, candidate.quad, appearance_);
+    candidate.appearance = reference_->compare(image_, candidate.quad, appearance_);
   for (ScoredCandidate& candidate : candidates) candidate.verdict = RejectReason::kDuplicate;
   candidates.insert(candidates.end(), located.begin(), located.end());
   return true;
@@ -167,9 +162,9 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
 
 // A frame in its own paint is found by that paint. There, leaning places would fit three sides of another
 // window.
-std::vector<ScoredCandidate> ReferenceJudge::placesEverywhere(const cv::Mat& image) {
-  if (!knowsSurroundings(image)) return {};
-  return ring_.placesEverywhere(inChannels(image), !hasOwnFrame());
+std::vector<ScoredCandidate> ReferenceJudge::placesEverywhere() {
+  if (!knowsSurroundings()) return {};
+  return ring_.placesEverywhere(!hasOwnFrame());
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& match) const {
@@ -198,8 +193,8 @@ bool ReferenceJudge::hasOwnFrame() const {
   return reference_ && !frameless() && reference_->isDistinct(appearance_);
 }
 
-bool ReferenceJudge::frameTells(const cv::Mat& image, double border_score) const {
-  return !knowsSurroundings(image) || (hasOwnFrame() && border_score > ReferenceBorders::kSureBorderScore);
+bool ReferenceJudge::frameTells(double border_score) const {
+  return !knowsSurroundings() || (hasOwnFrame() && border_score > ReferenceBorders::kSureBorderScore);
 }
 
 // A frame's own colours tell the frame from one in another paint, which correlates as well.
@@ -214,35 +209,30 @@ int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
   return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
 }
 
-std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring, const cv::Mat& image,
+std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring,
                                                      const std::optional<AppearanceMatch>& frame) {
   const RingMatch match = ring_.judged(ring.quad);
   const bool is_pale = match.contrast < kMinClearContrast * match.correlation;
-  const auto seen = is_pale && frame_colours_ ? ringColours(image, ring.quad, 1) : std::nullopt;
+  const auto seen = is_pale && frame_colours_ ? ringColours(image_, ring.quad, 1) : std::nullopt;
   if (seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze)
     return std::nullopt;
   return objectionTo(match, frame);
 }
 
 std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,
-                                                          const cv::Mat& image,
-                                                          const geometry::PinholeCamera* camera,
                                                           double coarsest_px) {
-  if (!knowsSurroundings(image)) return std::nullopt;
-  const auto ring = ring_.alignedAt(inChannels(image), camera, corners, coarsest_px);
+  if (!knowsSurroundings()) return std::nullopt;
+  const auto ring = ring_.alignedAt(corners, coarsest_px);
   if (!ring || ring->correlation < min_correlation_) return std::nullopt;
   return ring;
 }
 
-std::optional<AlignedRing> ReferenceJudge::uncovered(const geometry::Quadrilateral& corners,
-                                                     const cv::Mat& image,
-                                                     const geometry::PinholeCamera* camera) {
-  return knowsSurroundings(image) ? ring_.uncovered(inChannels(image), camera, corners) : std::nullopt;
+std::optional<AlignedRing> ReferenceJudge::uncovered(const geometry::Quadrilateral& corners) {
+  return knowsSurroundings() ? ring_.uncovered(corners) : std::nullopt;
 }
 
-int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                const geometry::PinholeCamera* camera) {
-  measureSides(inChannels(image), corners, camera, {kStepReach, kStepReach}, sides_);
+int ReferenceJudge::openBorders(const geometry::Quadrilateral& corners) {
+  measureSides(bgr_, corners, camera_, {kStepReach, kStepReach}, sides_);
   return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), [](const SideProfile& side) {
     Eigen::Vector3f within, without;
     return side.mean(-kStepTo, -kStepFrom, within) && side.mean(kStepFrom, kStepTo, without) &&
@@ -250,26 +240,23 @@ int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilate
   }));
 }
 
-bool ReferenceJudge::frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                 const geometry::PinholeCamera* camera) {
-  if (frameless() || !compares(image)) return false;
-  const FrameEnds here = framesBeyond(inChannels(image), corners, camera, sides_);
+bool ReferenceJudge::frameGoesOn(const geometry::Quadrilateral& corners) {
+  if (frameless() || !compares_) return false;
+  const FrameEnds here = framesBeyond(bgr_, corners, camera_, sides_);
   for (int side = 0; side < 4; ++side)
     for (int end = 0; end < 2; ++end)
       if (here[side][end] && !beyond_[side][end]) return true;
   return false;
 }
 
-bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                  const geometry::PinholeCamera* camera) {
-  return openBorders(image, corners, camera) >= std::min(kOpenBorders, open_borders_);
+bool ReferenceJudge::showsOpening(const geometry::Quadrilateral& corners) {
+  return openBorders(corners) >= std::min(kOpenBorders, open_borders_);
 }
 
-std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                                     const geometry::PinholeCamera* camera) {
-  const auto fault = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera);
-  if (fault || (!hasOwnFrame() && knowsSurroundings(image))) return fault;
-  return shape_.inFrame(image, fitted.corners, camera);
+std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted) {
+  const auto fault = shape_.inAspect(fitted.corners, fitted.corner_covariance, image_.size(), camera_);
+  if (fault || (!hasOwnFrame() && knowsSurroundings())) return fault;
+  return shape_.inFrame(image_, fitted.corners, camera_);
 }
 
 }  // namespace window_ingress::detection

@@ -25,32 +25,34 @@ class ReferenceJudge {
   /// Colour of the reference's frame, see `RingMeans::paint`; nothing if it has none.
   std::optional<Eigen::Vector3f> paint() const;
 
+  /// Sets the image that all calls below are about.
+  /// \param image CV_8UC1 or CV_8UC3; must outlive these calls, as must `camera` (null: no distortion)
+  void see(const cv::Mat& image, const geometry::PinholeCamera* camera);
+
   /// False without a reference, or if only one of reference and image has colour.
-  bool compares(const cv::Mat& image) const;
+  bool compares() const { return compares_; }
   /// True if the surroundings of the reference's opening can be compared with the image.
-  bool knowsSurroundings(const cv::Mat& image) const { return compares(image) && ring_.known(); }
+  bool knowsSurroundings() const { return compares_ && ring_.known(); }
 
   /// Weighs the candidates by their frames and adds candidates with located borders. Returns false, and
   /// changes nothing, if they cannot be compared.
-  bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                   std::vector<ScoredCandidate>& candidates);
+  bool judgeFrames(std::vector<ScoredCandidate>& candidates);
 
   /// Adds the places whose surroundings match the reference's; no other candidate may be the target then.
   /// Returns false, and changes nothing, if they cannot be compared.
-  bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                         std::vector<ScoredCandidate>& candidates);
+  bool judgeSurroundings(std::vector<ScoredCandidate>& candidates);
 
   /// Sets whether something stands before the opening's surroundings.
   void setCovered(bool covered) { covered_ = covered, ring_.setCovered(covered); }
 
   /// Candidates for `judgeSurroundings` from the whole image, found without edges; none if it cannot be
   /// compared.
-  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
+  std::vector<ScoredCandidate> placesEverywhere();
 
   /// True if the frame's colours alone may identify the target, whatever its surroundings. Its colours must
   /// occur nowhere else in the reference, and its borders must surely match; or nothing else is known.
   /// \param border_score of the borders, see ScoredCandidate
-  bool frameTells(const cv::Mat& image, double border_score) const;
+  bool frameTells(double border_score) const;
 
   /// Number of borders that must be visible with this match: fewer for a match that is harder to mistake.
   int bordersNeeded(const RingMatch& match) const;
@@ -65,47 +67,37 @@ class ReferenceJudge {
 
   /// Best fit of the surroundings near this window. Nothing where its background differs, as behind a
   /// free-standing gate. \param coarsest_px see RingMatcher
-  std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
-                                            const geometry::PinholeCamera* camera, double coarsest_px);
+  std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, double coarsest_px);
 
   /// See RingAlignment.
-  std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& corners, const cv::Mat& image,
-                                       const geometry::PinholeCamera* camera);
+  std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& corners);
   std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& corners, int side) const {
     return ring_.completed(corners, side);
   }
 
   /// Objection to the surroundings that `surroundingsOf` found last. Contrast lost to haze is no objection.
-  std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,
-                                       const std::optional<AppearanceMatch>& frame);
+  std::optional<Rejection> objectionTo(const AlignedRing& ring, const std::optional<AppearanceMatch>& frame);
 
   /// True if the image inside three of the borders, or as many as in the reference, differs from the wall
   /// outside. A wall with a repeating pattern can match the surroundings elsewhere, but there it continues
   /// inside.
-  bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                    const geometry::PinholeCamera* camera);
+  bool showsOpening(const geometry::Quadrilateral& corners);
 
   /// True if the frame of a side continues beyond the side's end where the reference's does not. Then three
   /// sides belong to a larger window.
-  bool frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                   const geometry::PinholeCamera* camera);
+  bool frameGoesOn(const geometry::Quadrilateral& corners);
 
   /// Why fitted borders cannot be the reference's; nothing if they can.
-  std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                       const geometry::PinholeCamera* camera);
+  std::optional<Rejection> objectionTo(const RefinedBorders& fitted);
 
  private:
-  int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                  const geometry::PinholeCamera* camera);
+  int openBorders(const geometry::Quadrilateral& corners);
   bool hasOwnFrame() const;
   double sureCorrelation() const;
-  const cv::Mat& inChannels(const cv::Mat& image);
-  std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                        const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
-  std::vector<ScoredCandidate> locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                         const std::vector<ScoredCandidate>& candidates);
-  bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& candidates) const;
-  void weighOthers(const cv::Mat& image, const std::vector<ScoredCandidate>& located,
+  std::optional<ScoredCandidate> locate(const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
+  std::vector<ScoredCandidate> locateAll(const std::vector<ScoredCandidate>& candidates);
+  bool weigh(std::vector<ScoredCandidate>& candidates) const;
+  void weighOthers(const std::vector<ScoredCandidate>& located,
                    std::vector<ScoredCandidate>& candidates) const;
 
   AppearanceParams appearance_;
@@ -119,7 +111,9 @@ class ReferenceJudge {
   FrameEnds beyond_{};    ///< in the reference
   bool covered_ = false;
   bool is_grey_ = false;  ///< the reference is grey: only brightness counts
-  cv::Mat channels_;
+  bool compares_ = false;
+  cv::Mat image_, bgr_, converted_;  ///< as seen; with three channels; memory of the latter
+  const geometry::PinholeCamera* camera_ = nullptr;
   std::array<SideProfile, 4> sides_;
 };
 

@@ -132,10 +132,11 @@ TEST(RingAlignment, WhatStandsBeforeTheRingIsLeftOutFromTheBeginningWhereItIsExp
     look(scene), look(other);
     RingAlignment plain, covered;
     plain.set(scene.model, scene.image, nullptr);
-    covered.set(scene.model, scene.image, nullptr, true);
+    covered.setCovered(true);
+    covered.set(scene.model, scene.image, nullptr);
     EXPECT_LT(plain.correlation(scene.opening, 200.0), 0.58) << seed;
     EXPECT_GT(covered.correlation(scene.opening, 200.0), 0.6) << seed;
-    covered.set(scene.model, other.image, nullptr, true);
+    covered.set(scene.model, other.image, nullptr);
     EXPECT_LT(covered.correlation(other.opening, 200.0), 0.5) << seed << ", another wall";
   }
 }

@@ -26,6 +26,7 @@ struct Known {
     const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &corners);
     judge.learn(reference, corners);
     image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
+    judge.see(image, nullptr);
   }
   RingMatcher judge;
   cv::Mat image;
@@ -36,7 +37,7 @@ TEST(RingMatcher, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
   std::vector<ScoredCandidate> candidates = {rough(test::rectangle(40, 60, 160, 150), 0.99),
                                              rough(test::grown(known.opening, 3.0), 0.3)};
-  const auto& found = known.judge.align(known.image, nullptr, candidates);
+  const auto& found = known.judge.align(candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
   EXPECT_GT(*found[0].correlation, 0.8);
@@ -48,22 +49,17 @@ TEST(RingMatcher, LoopsOfOnePlaceGiveOne) {
   Known known{PatchedWall(3)};
   std::vector<ScoredCandidate> candidates;
   for (double grown : {-3.0, 0.0, 2.0, 4.0}) candidates.push_back(rough(test::grown(known.opening, grown)));
-  EXPECT_EQ(known.judge.align(known.image, nullptr, candidates).size(), 1U);
+  EXPECT_EQ(known.judge.align(candidates).size(), 1U);
 }
 
-TEST(RingMatcher, NothingIsKnownBeforeAReference) {
-  RingMatcher judge;
-  std::vector<ScoredCandidate> candidates = {rough(test::rectangle(9, 9, 50, 50))};
-  EXPECT_FALSE(judge.known());
-  EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, candidates).empty());
-}
+TEST(RingMatcher, NothingIsKnownBeforeAReference) { EXPECT_FALSE(RingMatcher().known()); }
 
 TEST(RingMatcher, ThePlaceIsFoundInTheWholeImageWithoutAnyEdge) {
   Known known{PatchedWall(3)};
-  auto candidates = known.judge.placesEverywhere(known.image);
+  auto candidates = known.judge.placesEverywhere();
   ASSERT_FALSE(candidates.empty());
   EXPECT_LE(candidates.size(), 6U);
-  const auto& found = known.judge.align(known.image, nullptr, candidates);
+  const auto& found = known.judge.align(candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
 }
@@ -77,8 +73,9 @@ TEST(RingMatcher, APlaceIsFoundEverywhereThoughTheReferenceEndsBesideTheOpening)
   RingMatcher matcher;
   matcher.learn(reference.colRange(left, reference.cols).clone(), corners);
   const cv::Mat image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
-  auto candidates = matcher.placesEverywhere(image);
-  const auto& found = matcher.align(image, nullptr, candidates);
+  matcher.see(image, nullptr);
+  auto candidates = matcher.placesEverywhere();
+  const auto& found = matcher.align(candidates);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, opening), 0.5);
 }
@@ -86,16 +83,20 @@ TEST(RingMatcher, APlaceIsFoundEverywhereThoughTheReferenceEndsBesideTheOpening)
 TEST(RingMatcher, NoPlaceOnAnotherWallFits) {
   Known known{PatchedWall(3)};
   const cv::Mat other = PatchedWall(4).draw(seenFrom(3.5, 0.4), nullptr);
-  auto candidates = known.judge.placesEverywhere(other);
-  for (const ScoredCandidate& place : known.judge.align(other, nullptr, candidates))
+  known.judge.see(other, nullptr);
+  auto candidates = known.judge.placesEverywhere();
+  for (const ScoredCandidate& place : known.judge.align(candidates))
     EXPECT_LT(*place.correlation, DetectorParams().min_correlation);
 }
 
 TEST(RingMatcher, PlacesEverywhereNeedAReferenceAndAnImageLikeIt) {
   Known known{PatchedWall(3)};
-  EXPECT_TRUE(RingMatcher().placesEverywhere(known.image).empty());
-  EXPECT_TRUE(known.judge.placesEverywhere(cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90))).empty());
-  EXPECT_TRUE(known.judge.placesEverywhere(known.image(cv::Rect(0, 0, 20, 16))).empty());
+  EXPECT_TRUE(RingMatcher().placesEverywhere().empty());
+  for (const cv::Mat& image :
+       {cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90)), known.image(cv::Rect(0, 0, 20, 16))}) {
+    known.judge.see(image, nullptr);
+    EXPECT_TRUE(known.judge.placesEverywhere().empty());
+  }
 }
 
 // Borders near those of a view of a wall; the left border was placed on something beside it.
@@ -250,12 +251,10 @@ TEST(WindowTracker, ThePaintOfAFrameMayGoOnIntoTheReveal) {
 
 TEST(RingMatcher, TellsHowWellAPlaceFits) {
   Known known{PatchedWall(3)};
-  const auto right = known.judge.alignedAt(known.image, nullptr, test::grown(known.opening, 2.0),
-                                           RingMatcher::kFoundStartPx);
+  const auto right = known.judge.alignedAt(test::grown(known.opening, 2.0), RingMatcher::kFoundStartPx);
   ASSERT_TRUE(right);
   EXPECT_GT(right->correlation, 0.8);
-  const auto wrong = known.judge.alignedAt(known.image, nullptr, test::rectangle(40, 60, 160, 150),
-                                           RingMatcher::kFoundStartPx);
+  const auto wrong = known.judge.alignedAt(test::rectangle(40, 60, 160, 150), RingMatcher::kFoundStartPx);
   EXPECT_LT(wrong ? wrong->correlation : 0.0, 0.5);
 }
 
@@ -268,7 +267,8 @@ TEST(RingMatcher, AnUnsharpViewIsNotAPaleOne) {
   cv::GaussianBlur(sharp, unsharp, cv::Size(), 2.2);
   sharp.convertTo(pale, -1, 0.45, 60.0);
   const auto judged = [&](const cv::Mat& image) {
-    const auto ring = known.judge.alignedAt(image, nullptr, opening, RingMatcher::kFoundStartPx);
+    known.judge.see(image, nullptr);
+    const auto ring = known.judge.alignedAt(opening, RingMatcher::kFoundStartPx);
     return ring ? known.judge.judged(ring->quad) : RingMatch();
   };
   const RingMatch blurred = judged(unsharp), faded = judged(pale);

@@ -10,7 +10,7 @@ const geometry::Quadrilateral kOpening = test::rectangle(200, 150, 440, 350);
 
 const cv::Scalar kWall(136, 152, 161), kOrange(16, 78, 185);
 
-/// A judge that has learned an opening in a wall, with or without a frame.
+/// A judge that has learned an opening in a wall, with or without a frame, and sees it.
 ReferenceJudge judgeOf(bool framed, const cv::Scalar& paint = kOrange) {
   cv::Mat image(480, 640, CV_8UC3, kWall);
   if (framed) test::fillQuad(image, test::rectangle(185, 135, 455, 365), paint);
@@ -50,14 +50,13 @@ TEST(ReferenceJudge, AWallWithoutAFrameIsNotExcusedByWhatIsCovered) {
 }
 
 TEST(ReferenceJudge, AFrameAloneTellsOnlyWhereItsColoursAreItsOwn) {
-  const cv::Mat image(480, 640, CV_8UC3, kWall);
-  EXPECT_TRUE(judgeOf(true).frameTells(image, 0.5));
-  EXPECT_FALSE(judgeOf(true).frameTells(image, 0.2)) << "borders that are hardly the reference's";
-  EXPECT_FALSE(judgeOf(true, 0.5 * kWall).frameTells(image, 0.5))
-      << "darker than the wall, and of its colour";
-  EXPECT_FALSE(judgeOf(false).frameTells(image, 0.5));
-  EXPECT_TRUE(judgeOf(false).frameTells(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)), 0.0))
-      << "nothing is compared";
+  EXPECT_TRUE(judgeOf(true).frameTells(0.5));
+  EXPECT_FALSE(judgeOf(true).frameTells(0.2)) << "borders that are hardly the reference's";
+  EXPECT_FALSE(judgeOf(true, 0.5 * kWall).frameTells(0.5)) << "darker than the wall, and of its colour";
+  ReferenceJudge of_wall = judgeOf(false);
+  EXPECT_FALSE(of_wall.frameTells(0.5));
+  of_wall.see(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)), nullptr);
+  EXPECT_TRUE(of_wall.frameTells(0.0)) << "nothing is compared";
 }
 
 // Another time of day changes a frame's contrasts. A frame in another paint correlates as well.
@@ -80,17 +79,21 @@ TEST(ReferenceJudge, CorrelationAloneDecidesWhereNoFramesColoursTell) {
 
 // A taller window in the same frame, of which three sides are mistaken for the target's.
 TEST(ReferenceJudge, AFrameThatGoesOnBeyondACornerIsAnother) {
-  ReferenceJudge judge = judgeOf(true);
+  const ReferenceJudge judge = judgeOf(true);
   cv::Mat tall(480, 640, CV_8UC3, kWall), right = tall.clone();
   test::fillQuad(tall, test::rectangle(185, 65, 455, 365), kOrange);
   test::fillQuad(tall, test::rectangle(200, 80, 440, 350), cv::Scalar(70, 72, 70));
   test::fillQuad(right, test::rectangle(185, 135, 455, 365), kOrange);
   test::fillQuad(right, kOpening, cv::Scalar(70, 72, 70));
-  EXPECT_FALSE(judge.frameGoesOn(right, kOpening, nullptr));
-  EXPECT_TRUE(judge.frameGoesOn(tall, kOpening, nullptr));
+  const auto goesOn = [](ReferenceJudge judge, const cv::Mat& image) {
+    judge.see(image, nullptr);
+    return judge.frameGoesOn(kOpening);
+  };
+  EXPECT_FALSE(goesOn(judge, right));
+  EXPECT_TRUE(goesOn(judge, tall));
   const cv::Mat fog = 0.15 * right + 0.85 * cv::Scalar::all(180);
-  EXPECT_FALSE(judge.frameGoesOn(fog, kOpening, nullptr)) << "where all colours are alike";
-  EXPECT_FALSE(judgeOf(false).frameGoesOn(tall, kOpening, nullptr)) << "a wall goes on";
+  EXPECT_FALSE(goesOn(judge, fog)) << "where all colours are alike";
+  EXPECT_FALSE(goesOn(judgeOf(false), tall)) << "a wall goes on";
 }
 
 TEST(ReferenceJudge, WhereSomethingStandsBeforeItMoreMustFit) {
@@ -113,10 +116,12 @@ TEST(ReferenceJudge, AnOpeningShowsWhereItShowsInTheReference) {
   test::fillQuad(slit, test::rectangle(200, 150, 220, 350), cv::Scalar(70, 72, 70));
   ReferenceJudge judge((DetectorParams()));
   judge.learn(std::make_shared<ReferenceAppearance>(slit, kOpening));
-  EXPECT_TRUE(judge.showsOpening(slit, kOpening, nullptr));
-  EXPECT_FALSE(judge.showsOpening(closed, kOpening, nullptr));
+  EXPECT_TRUE(judge.showsOpening(kOpening));
+  judge.see(closed, nullptr);
+  EXPECT_FALSE(judge.showsOpening(kOpening));
   ReferenceJudge of_open = judgeOf(false);
-  EXPECT_FALSE(of_open.showsOpening(slit, kOpening, nullptr)) << "one border of four";
+  of_open.see(slit, nullptr);
+  EXPECT_FALSE(of_open.showsOpening(kOpening)) << "one border of four";
 }
 
 }  // namespace window_ingress::detection::reference_judge_test
