@@ -57,6 +57,8 @@ inline std::vector<LaunchArgument> argumentsOf(const std::filesystem::path& file
          std::smatch other;  // default="$(arg rviz)"
          std::string standard = arg[3];
          if (std::regex_match(standard, other, std::regex("\\$\\(arg (\\w+)\\)"))) standard = named[other[1]];
+         if (const std::string here = "$(find window_ingress)"; standard.rfind(here, 0) == 0)
+           standard.replace(0, here.size(), file.parent_path().parent_path().string());
          if (named.emplace(arg[1], standard).second && arg[2] != "value")
            arguments.push_back({arg[1], standard, arg[4]});
        });
@@ -80,6 +82,15 @@ inline std::string wholePathOf(const std::string& file) {
          (at_home ? home + file.substr(1) : (std::filesystem::current_path() / file).string());
 }
 
+/// The same for an argument; `nominal` is the file of that name beside the default one.
+inline std::string wholePathOf(const std::string& file, const std::string& standard) {
+  const auto shipped = std::filesystem::path(standard).parent_path() / file;
+  for (const char* end : {"", ".yaml"})
+    if (std::filesystem::exists(shipped.string() + end))
+      return "give its whole path, as " + shipped.string() + end;
+  return wholePathOf(file);
+}
+
 /// Why this cannot be the argument's value; empty if it can. The argument's doc lists the allowed words ("one
 /// of a, b; ..") or asks for a whole path; otherwise the default shows whether it is a switch or a number.
 inline std::string whyNot(const LaunchArgument& argument, const std::string& value) {
@@ -98,7 +109,7 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
   }
   const bool is_path = !value.empty() && value != argument.standard && value[0] != '/';
   if (!is_path || argument.doc.find("whole path") == std::string::npos) return "";
-  return wholePathOf(value);
+  return wholePathOf(value, argument.standard);
 }
 
 /// The launch file in `folder` given to roslaunch; empty if the words are not those of roslaunch, or name

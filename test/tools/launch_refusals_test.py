@@ -60,7 +60,8 @@ def test_the_argument_that_was_meant_is_named(file):
 @pytest.mark.parametrize("name, argument, said", [
     ("sim", "glass:=exluded", "give one of as_set, excluded, possible"), ("sim", "unverified_opening:=alow", "give one of as_set, allow, ask, deny"),
     ("sim", "auto_start:=yes", "give one of true, false"), ("sim", "real_time_factor:=fast", "give a number"),
-    ("sim", "scenario:=gusty.yaml", "give its whole path, as /"), ("record", "images:=jpeg", "give one of raw, compressed, none"),
+    ("sim", "scenario:=my.yaml", "give its whole path, as /"), ("sim", "scenario:=gusty", f"give its whole path, as {ROOT}/config/scenarios/gusty.yaml"),
+    ("record", "images:=jpeg", "give one of raw, compressed, none"),
     ("record", "compression:=zip", "give one of none, lz4, bz2"), ("record", "name:=garden", "give its whole path, as /"),
     ("mavros", "modes:=OFFBORD", "give one of [OFFBOARD], [GUIDED]"), ("external", "start_at:=here", "give one of vehicle, scenario"),
     ("replay", "bag:=flight.bag", "give its whole path, as /"), ("replay", "rate:=half", "give a number"),

@@ -38,6 +38,7 @@ REMEDIES = (
     ("camera mounting turned by", f"add these angles, in radians, to those of the camera, {AGAIN} camera_pose:=x,y,z,yaw,pitch,roll"),
     ("gated out: ", f"measure the opening (window_size:=W,H) and the camera's angles; where these are wrong, {AGAIN} "
                     "camera_pose:=x,y,z,yaw,pitch,roll"),
+    ("s old, limit", "a source with less delay, a lighter load on this computer; synchronise the clocks (chrony, MAVROS's timesync)"),
     ("does not change any more", "restart the camera's driver"),
     ("it is advertised, but nothing is sent", "see what its publisher says, scripts/run rosnode info names its log; if it "
                                               "died: scripts/run rosnode cleanup, and start it again"),

@@ -2,7 +2,8 @@
 from ingress_tools.observed_system import ARGUMENTS, PIPELINE
 from ingress_tools.remedies import AGAIN, another_topic, remedy
 
-SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
+WANTED_HZ = {"sensor_msgs/Image": 15.0, "sensor_msgs/CompressedImage": 15.0, "nav_msgs/Odometry": 30.0, "sensor_msgs/Imu": 30.0}
+ALMOST = 0.85  # of a wanted rate is accepted
 DAY_S = 86400.0
 LATE_S = 0.27  # close to the age at which the navigator no longer flies at a window
 
@@ -34,8 +35,8 @@ def check_input(system, report, topic, kind, readers):
     elif len(publishers) > 1:
         report.error(f"{topic}: {len(publishers)} publishers: {', '.join(publishers)}", f"stop one of them: scripts/run rosnode kill {publishers[-1]}",
                      [topic], **place)
-    elif sample.rate_hz() < SLOWEST_HZ.get(kind, 0.0):
-        report.warn(f"{topic}: {sample.rate_hz():.1f} Hz, should be {SLOWEST_HZ[kind]:.0f} Hz or more", f"raise the rate of {publishers[0]}; "
+    elif sample.rate_hz() < ALMOST * WANTED_HZ.get(kind, 0.0):
+        report.warn(f"{topic}: {sample.rate_hz():.1f} Hz, should be {WANTED_HZ[kind]:.0f} Hz or more", f"raise the rate of {publishers[0]}; "
                     "MAVROS: doc/autopilots.md", [topic], **place)
     else:
         check_age(report, topic, publishers[0], sample, **place)
