@@ -18,6 +18,8 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools.command_line import Parser, fail, rows_of  # noqa: E402
 
 SAME_IOU = 0.7  # from this overlap on the right window was found
+ANNOTATIONS = "file", "label", *(f"{axis}{i}" for i in range(1, 5) for axis in "xy")  # columns of these tables
+META = "file", "scene", "tier", "exhaustive"
 
 
 def cross(o, a, b):
@@ -65,7 +67,7 @@ def corners(row):
 def read_judged(tool, table, options):
     """(rows of the table, annotations, {file: its row in the list of images}); exits if one cannot be read."""
     try:
-        rows, annotations, meta = map(rows_of, (table, options.annotations, options.meta))
+        rows, annotations, meta = rows_of(table), rows_of(options.annotations, ANNOTATIONS), rows_of(options.meta, META)
     except OSError as error:
         fail(2, f"{tool}: {error.filename}: {error.strerror}")
     return rows, annotations, {row["file"]: row for row in meta}

@@ -4,6 +4,11 @@ each scene that has one, on that scene and on every image without a target.
 
 Rules and the halves `tune` and `report` are as in evaluate_detections.py. With a reference every detection that is not on
 an annotated quadrilateral is false.
+
+The folder of --photos holds images/ and these tables:
+  meta.csv         file, scene, tier (a group's name; `neg`: no target), exhaustive (`yes`: every window is annotated)
+  annotations.csv  file, label, x1, y1, ..., x4, y4: a row a window's inner border, clockwise from the top left [px]
+  refs.csv         may be missing: scene, taken_from_file, ref_with_margin (png: the target and a quarter of it all round)
 """
 import os
 import pathlib
@@ -18,6 +23,7 @@ from ingress_tools import package_paths  # noqa: E402
 from ingress_tools.command_line import Parser  # noqa: E402
 
 MARGIN = 0.25  # of the `ref_with_margin` images, at each side [width or height of the target]
+REFERENCES = "scene", "taken_from_file", "ref_with_margin"  # columns of refs.csv
 CELL, COLUMNS = (280, 210), 8  # of the sheet of wrong images [px]
 DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 
@@ -41,9 +47,9 @@ class Photographs:
     def __init__(self, options):
         self.options = options
         self.folder = options.photos
-        self.meta = {row["file"]: row for row in rules.rows_of(self.folder / "meta.csv")}
-        self.annotations = rules.rows_of(self.folder / "annotations.csv")
-        self.references = rules.rows_of(self.folder / "refs.csv") if (self.folder / "refs.csv").exists() else []
+        self.meta = {row["file"]: row for row in rules.rows_of(self.folder / "meta.csv", rules.META)}
+        self.annotations = rules.rows_of(self.folder / "annotations.csv", rules.ANNOTATIONS)
+        self.references = rules.rows_of(self.folder / "refs.csv", REFERENCES) if (self.folder / "refs.csv").exists() else []
         self.candidates = []  # (title, records) of each run, with --candidates
 
     def run(self, name, files, leave_out=(), reference=None):
@@ -152,7 +158,7 @@ def sheet(photographs, records, path):
 
 def parse():
     parser = Parser(__doc__)
-    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with meta.csv and images/")
+    parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder, see above")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the csv files")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")

@@ -259,7 +259,8 @@ int run(const Options& o) {
     std::cerr << "detect_images: warning: " << not_compared
               << " found by geometry alone: image and reference must both have colours, or both none\n";
   std::cout << "a window in " << found << " of " << images.size() << " images; see " << o.output
-            << (o.overlay.empty() ? "" : " and " + o.overlay) << std::endl;
+            << (o.overlay.empty() ? "" : " and " + o.overlay)
+            << (job.reference ? "" : " (any window: no --reference)") << std::endl;
   return unreadable ? 1 : 0;
 }
 

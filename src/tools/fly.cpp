@@ -62,6 +62,8 @@ class FlyResults {
     const std::string title = std::filesystem::path(job_.asked.scenario).stem().string() + ", " +
                               std::to_string(flights.size()) + " flights";
     evaluation::writeImage(folder_ / "tracks.png", evaluation::drawTracks(flights, scenario, title));
+    for (const auto& [cause, count] : evaluation::causesOf(flights))
+      std::printf("%d %s\n", count, cause.c_str());
     std::printf("%d of %zu flights passed: flights.csv, tracks.csv, tracks.png and summary.json in %s\n",
                 passed_, flights.size(), folder_.c_str());
   }

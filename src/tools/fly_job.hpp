@@ -91,7 +91,7 @@ inline std::string inputsOf(const FlyOptions& o) {
   for (const auto& [option, file] :
        {std::pair{"scenario", o.scenario}, {"params", o.params}, {"draws", o.draws}})
     text += std::string("# --") + option + "\n" + (file.empty() ? "" : contentOf(file));
-  return text;
+  return text + (o.no_pictures ? "# --no-pictures\n" : "");
 }
 
 constexpr const char* kInputsFile = "flown_with.txt";
@@ -100,8 +100,8 @@ constexpr const char* kInputsFile = "flown_with.txt";
 inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
   const std::string file = folder + "/" + kInputsFile;
   if (!std::filesystem::exists(file) || contentOf(file) == inputsOf(o)) return;
-  throw InputError(folder + " holds flights with another --scenario, --params or --draws: give those that " +
-                   file + " shows, or another folder");
+  throw InputError(folder + " holds flights with another --scenario, --params, --draws or --no-pictures: " +
+                   "give those that " + file + " shows, or another folder");
 }
 
 inline FlyJob jobOf(const FlyOptions& o) {

@@ -146,7 +146,9 @@ inline std::string otherSizes(configuration::Overlay overlay, const simulation::
 inline std::string understood(const configuration::Overlay& overlay, bool is_assumed) {
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;
-  const std::string body = "a vehicle of " + sizeOf(vehicle) + " (length, width, height)";
+  const bool gives_vehicle = overlay.gives("vehicle/half_width_m") || overlay.gives("vehicle/half_height_m");
+  const std::string body = "a vehicle of " + sizeOf(vehicle) + " (length, width, height" +
+                           (gives_vehicle ? ")" : "; assumed: its size is not given)");
   if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
   return body + " through " + sizeOf(pose) +
          formatted("%s: %.2f m free on each side, %.2f m above and below",

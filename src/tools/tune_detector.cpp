@@ -42,7 +42,7 @@ tools::OptionList describe(Job& job) {
                   "SOURCE: an image, a folder of images, a bag, or a topic of images (begins with '/').\n") +
       kKeys);
   add("source", job.source, "see above");
-  add("output", job.output, "yaml file with what differs from the defaults, for config:= and --params");
+  add("output", job.output, "yaml file with the detector's values that differ from the defaults");
   add("overwrite", job.overwrite, tools::kOverwriteHelp);
   add("params", job.params, tools::kParamsHelp);
   add.add_options()("set", boost::program_options::value(&job.settings)->composing(),
@@ -62,8 +62,9 @@ tools::OptionList describe(Job& job) {
 void save(const std::string& file, const Bench& bench) {
   if (file.empty()) throw InputError("--output is missing: where to save");
   const std::string about =
-      "tune_detector: what differs from the defaults. Give it as config:= to launch files, as --params to "
-      "tools.";
+      "tune_detector: the detector's values that differ from the defaults, without the reference. Put them "
+      "into "
+      "the file of config:=; tools take this file as --params.";
   const std::string overlay = tools::saveParams(file, about, bench.params());
   std::cout << "written: " << file << "\n" << overlay << std::flush;
 }

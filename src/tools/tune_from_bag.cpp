@@ -115,6 +115,9 @@ int run(const Job& job) {
   const auto [tuning, held] = evaluation::split(read(job), job.held_out, job.seed);
   std::printf("%zu images to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(), held.size(),
               job.seed);
+  if (std::all_of(tuning.begin(), tuning.end(), [](const auto& image) { return image.targets.empty(); }))
+    throw InputError(
+        "no image to tune on shows a labelled window: label more, or draw other groups with --seed");
   const evaluation::TuningOptions search{namesOf(job.names), job.trials, job.seed};
   auto printed = std::chrono::steady_clock::now();
   const auto progress = [&](int done, const DetectionCounts& best) {

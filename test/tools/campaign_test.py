@@ -103,7 +103,7 @@ def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
     assert fewer.returncode == 2 and "seed 3" in fewer.stderr
     scenario.write_text(SCENARIO.replace("[2, 3]", "[3, 4]").replace("limit_sec: 1.0", "limit_sec: 1.1"))
     other = fly(scenario, out, "--seeds", "1..5", "--resume")
-    assert other.returncode == 2 and f"{out} holds flights with another --scenario, --params or --draws" in other.stderr
+    assert other.returncode == 2 and f"{out} holds flights with another --scenario, --params, --draws or --no-pictures" in other.stderr
     assert fly(scenario, tmp_path / "whole", "--join", out).returncode == 2
     (out / "flown_with.txt").unlink()  # as another build
     other = fly(scenario, out, "--seeds", "1..5", "--resume")
@@ -119,6 +119,16 @@ def test_flights_with_other_parameters_are_not_gone_on_with_even_if_the_last_one
     params.write_text("vehicle: {half_width_m: 0.02}\n")
     other = fly(scenario, out, "--seeds", "1..5", "--params", params, "--resume")
     assert other.returncode == 2 and f"give those that {out}/flown_with.txt shows" in other.stderr, other.stderr
+
+
+def test_flights_with_and_without_images_are_not_mixed(tmp_path):
+    command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", scenario_in(tmp_path)]
+    assert call(*command, "--no-pictures").returncode == 0
+    assert "Flown with `--no-pictures`." in (tmp_path / "table.md").read_text()
+    mixed = call(*command, "--resume")
+    assert mixed.returncode == 1 and "--no-pictures" in mixed.stderr, mixed.stderr
+    assert not (tmp_path / "table.md").exists()
+    assert json.loads((tmp_path / "short/summary.json").read_text())["pictures"] is False
 
 
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):

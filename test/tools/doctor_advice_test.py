@@ -166,8 +166,25 @@ def test_each_remedy_is_reached():
 @pytest.mark.parametrize("age_s, levels", [(0.12, []), (0.31, ["WARN"]), (0.7, ["ERROR"]), (-0.2, ["ERROR"])])
 def test_messages_that_come_late_are_told(age_s, levels):
     report = findings.Report()
-    topic_checks.check_age(report, "/odom", "/driver", types.SimpleNamespace(age_s=lambda: age_s, rate_hz=lambda: 50.0))
+    topic_checks.check_age(report, "/odom", "nav_msgs/Odometry", "/driver", types.SimpleNamespace(age_s=lambda: age_s, rate_hz=lambda: 50.0))
     assert [finding.level for finding in report.findings] == levels
+
+
+@pytest.mark.parametrize("kind, rate_hz, levels", [("nav_msgs/Odometry", 16.7, ["WARN"]), ("nav_msgs/Odometry", 29.0, []),
+                                                   (RAW, 10.0, ["WARN"]), (RAW, 14.5, []), ("std_msgs/Bool", 1.0, [])])
+def test_a_rate_below_what_the_pages_ask_for_is_told(kind, rate_hz, levels):
+    report, system = findings.Report(), seen({"/topic": kind})
+    system.graph.types = {"/topic": kind}
+    system.samples = {"/topic": types.SimpleNamespace(times=[1.0], rate_hz=lambda: rate_hz, age_s=lambda: 0.02)}
+    topic_checks.check_input(system, report, "/topic", kind, "homography_pose")
+    assert [finding.level for finding in report.findings] == levels
+
+
+@pytest.mark.parametrize("fault", ["opening looks like 1.4 x 1.2 m, configured as 1.2 x 1.0 m", "camera mounting turned by about 6 deg"])
+def test_no_remedy_of_a_simulation_gives_an_argument_that_it_lacks(fault):
+    mend = findings.as_run(remedies.remedy(fault), "sim.launch")
+    given = re.findall(r"(\w+):=", mend)
+    assert "sim.launch" in mend and set(given) <= set(re.findall(r'<arg name="(\w+)"', (ROOT / "launch/sim.launch").read_text())), mend
 
 
 def test_the_frame_that_came_is_the_one_to_be_given():

@@ -139,3 +139,10 @@ def test_a_window_that_moves_is_followed(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "6 frames, tracked in 6, lost in 0" in done.stdout
     assert "target numbers: 1\n" in done.stdout
+
+
+def test_a_table_that_lacks_columns_is_refused_by_name(tmp_path):
+    (tmp_path / "meta.csv").write_text("file,scene\na.jpg,garden\n")
+    (tmp_path / "annotations.csv").write_text("file,label\n")
+    done = call("/usr/bin/python3", ROOT / "tools/evaluate_photos.py", "--photos", tmp_path, "--output", tmp_path / "out")
+    assert done.returncode == 2 and done.stderr == f"{tmp_path}/meta.csv: has no column tier, exhaustive\n", done.stderr

@@ -50,7 +50,11 @@ def refuse_to_replace(parser, files, overwrite):
             fail(2, f"{parser.prog}: {file} is there already: --overwrite replaces it, or give another name")
 
 
-def rows_of(file):
-    """Rows of a csv table, as dicts of text."""
+def rows_of(file, columns=()):
+    """Rows of a csv table, as dicts of text; exits if it lacks one of the columns."""
     with open(file, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
+        table = csv.DictReader(stream)
+        missing = [column for column in columns if column not in (table.fieldnames or ())]
+        if missing:
+            fail(2, f"{file}: has no column {', '.join(missing)}")
+        return list(table)

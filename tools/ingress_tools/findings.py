@@ -6,6 +6,9 @@ def as_run(text, launch=None):
     """A remedy as the user has to type it: with scripts/run as they called it, else in a sourced workspace."""
     if launch:
         text = text.replace("ingress.launch", launch)
+    if launch == "sim.launch":  # its scenario has what the other launch files have as arguments
+        text = text.replace("window_size:=W,H, or homography_pose/pose/opening_*_m in your config", "another homography_pose/pose/opening_*_m in the file of config:=")
+        text = text.replace("camera_pose:=x,y,z,yaw,pitch,roll", "another camera: {told_yaw_error_rad, told_pitch_error_rad} in the scenario")
     run = os.environ.get("WINDOW_INGRESS_RUN", "")
     return text.replace("scripts/run ", f"{run} " if run else "").replace("scripts/ingress ", f"{run[:-len('run')]}ingress ")
 

@@ -27,7 +27,7 @@ REMEDIES = (
     ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
     ("not in tf", f"{AGAIN} camera_pose:=x,y,z,yaw,pitch,roll camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
-    ("draws too slowly", "real_time_factor:=0.5 of sim.launch, or fewer or smaller images: camera: {rate_hz: 15, width_px: 320, height_px: 240} "
+    ("draws too slowly", "real_time_factor:=0.5 of sim.launch (external.launch: let the vehicle's simulator run slower), or fewer or smaller images: camera: {rate_hz: 15, width_px: 320, height_px: 240} "
                          "in the scenario"),
     ("the budget is", "let the camera send smaller images, or fewer a second; most goes into 'reference' where other rectangles "
                       "than the target are in view: doc/detection.md, 'What it costs'"),
@@ -35,6 +35,8 @@ REMEDIES = (
     ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
     ("times as wide as it is high", WRONG_SIZE),
     ("opening looks like", WRONG_SIZE),
+    ("cannot be excluded yet", f"wait until the vehicle has moved sideways before the window; if this comes again, measure the camera's angles, {AGAIN} "
+                               "camera_pose:=x,y,z,yaw,pitch,roll"),
     ("camera mounting turned by", f"add these angles, in radians, to those of the camera, {AGAIN} camera_pose:=x,y,z,yaw,pitch,roll"),
     ("gated out: ", f"measure the opening (window_size:=W,H) and the camera's angles; where these are wrong, {AGAIN} "
                     "camera_pose:=x,y,z,yaw,pitch,roll"),

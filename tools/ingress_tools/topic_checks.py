@@ -39,10 +39,10 @@ def check_input(system, report, topic, kind, readers):
         report.warn(f"{topic}: {sample.rate_hz():.1f} Hz, should be {WANTED_HZ[kind]:.0f} Hz or more", f"raise the rate of {publishers[0]}; "
                     "MAVROS: doc/autopilots.md", [topic], **place)
     else:
-        check_age(report, topic, publishers[0], sample, **place)
+        check_age(report, topic, kind, publishers[0], sample, **place)
 
 
-def check_age(report, topic, publisher, sample, **place):
+def check_age(report, topic, kind, publisher, sample, **place):
     age = sample.age_s()
     text = f"{topic}: {sample.rate_hz():.1f} Hz from {publisher}"
     if abs(age) > DAY_S:
@@ -53,7 +53,8 @@ def check_age(report, topic, publisher, sample, **place):
         report.error(f"{text}, stamps {abs(age):.2f} s {'old' if age > 0.0 else 'ahead of the clock'}",
                      "synchronise the clocks (chrony); let the driver stamp at the exposure", [topic], **place)
     elif age > LATE_S:
-        report.warn(f"{text}, stamps {age:.2f} s old: windows older than ingress_navigator/navigator/input/max_target_age_sec are not flown at",
+        oldest = "max_vehicle_age_sec" if kind == "nav_msgs/Odometry" else "max_target_age_sec"
+        report.warn(f"{text}, stamps {age:.2f} s old: the vehicle stops at ingress_navigator/navigator/input/{oldest}",
                     "a driver with less delay; synchronise the clocks (chrony, MAVROS's timesync)", [topic], **place)
     else:
         report.ok(f"{text}, {1e3 * age:.0f} ms old")

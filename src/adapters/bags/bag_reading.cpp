@@ -106,7 +106,7 @@ auto readingBag(const rosbag::Bag& bag, const Work& work) {
 void openBag(rosbag::Bag& bag, const std::string& file) {
   if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder; name one bag in it");
   if (const std::string damage = whyDamaged(file); !damage.empty())
-    throw InputError(file + ": damaged: " + damage + "; see 'rosbag check' and 'rosbag reindex'");
+    throw InputError(file + ": damaged: " + damage + "; repair it with 'rosbag reindex'");
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {

@@ -84,17 +84,21 @@ std::string replaced(std::string text, char old, char by) {
 
 }  // namespace
 
+std::map<std::string, int> causesOf(const std::vector<FlightResult>& flights) {
+  std::map<std::string, int> causes;
+  for (const auto& flight : flights)
+    if (flight.outcome != Outcome::kPassed)
+      ++causes[std::string(toString(flight.outcome)) + ": " + withoutNumbers(flight.reason)];
+  return causes;
+}
+
 std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts& facts) {
-  std::map<std::string, int> outcomes, causes;
+  std::map<std::string, int> outcomes;
   std::vector<double> times, offsets, wrong_sides;
   for (const auto& flight : flights) {
-    const std::string outcome = toString(flight.outcome);
-    ++outcomes[outcome];
+    ++outcomes[toString(flight.outcome)];
     wrong_sides.push_back(flight.wrong_side_m);
-    if (flight.outcome == Outcome::kPassed)
-      times.push_back(flight.time_sec);
-    else
-      ++causes[outcome + ": " + withoutNumbers(flight.reason)];
+    if (flight.outcome == Outcome::kPassed) times.push_back(flight.time_sec);
     if (flight.offset_y_m && flight.offset_z_m)
       offsets.push_back(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)));
   }
@@ -112,7 +116,7 @@ std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts
                             {"pass_rate_low_95", rate.low},
                             {"pass_rate_high_95", rate.high},
                             {"outcomes", outcomes},
-                            {"causes", causes},
+                            {"causes", causesOf(flights)},
                             {"median_time_s", quantile(times, 0.5)},
                             {"p95_time_s", quantile(times, 0.95)},
                             {"p95_offset_m", quantile(offsets, 0.95)},

@@ -51,10 +51,13 @@ struct CampaignFacts {
   std::string version;  ///< of the package
 };
 
+/// Number of flights with each outcome and reason, without numbers; of all flights but PASSED.
+std::map<std::string, int> causesOf(const std::vector<FlightResult>& flights);
+
 /// Summary of a campaign as json text, keys in a fixed order: the facts; the number of flights, those that
-/// passed, and their rate with its 95 % Wilson interval; counts by outcome, and by outcome and reason without
-/// numbers (`causes`, of all flights but PASSED); median and 95 % quantile of the time of those that passed;
-/// 95 % quantiles of the larger of |y| and |z| where the plane was crossed, and of `wrong_side_m`.
+/// passed, and their rate with its 95 % Wilson interval; counts by outcome, and by outcome and reason
+/// (`causes`, see `causesOf`); median and 95 % quantile of the time of those that passed; 95 % quantiles of
+/// the larger of |y| and |z| where the plane was crossed, and of `wrong_side_m`.
 std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts& facts);
 
 /// Header of flights.csv, without the end of the line.
