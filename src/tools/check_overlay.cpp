@@ -234,6 +234,7 @@ void checkScenario(const Options& o, configuration::Overlay& overlay, tools::Inp
   if (!o.flown_by.empty() && scenario.vehicle.profile == "external")
     throw InputError(o.scenario + ": vehicle: external is simulated elsewhere: start external.launch");
   if (!tools::InputFaults().collect([&] { overlay = tools::flownIn(scenario, given(o.flown_by)); })) return;
+  if (const std::string other = tools::otherReference(overlay); !other.empty()) tools::warn(other);
   const std::string other = tools::otherSizes(overlay, scenario);
   if (other.empty()) return;
   tools::warn(other);

@@ -115,8 +115,9 @@ inline FlyJob jobOf(const FlyOptions& o) {
   job.seeds = seedsOf(job);
   if (!o.params.empty()) {
     job.params = {configuration::readOverlay(o.params)};
-    const std::string other = otherSizes(job.params, job.scenario(job.seeds.front()));
-    if (!other.empty()) std::cerr << "fly: warning: " << other << "\n";
+    for (const std::string& other :
+         {otherSizes(job.params, job.scenario(job.seeds.front())), otherReference(job.params)})
+      if (!other.empty()) std::cerr << "fly: warning: " << other << "\n";
   }
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);

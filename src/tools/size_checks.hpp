@@ -141,6 +141,13 @@ inline std::string otherSizes(configuration::Overlay overlay, const simulation::
                             "with your sizes (window, vehicle)";
 }
 
+/// Says that a reference in the file is not used, because the world shows one of its own window; else empty.
+inline std::string otherReference(const configuration::Overlay& overlay) {
+  return overlay.gives("window_detector/reference/picture")
+             ? "window_detector/reference is not used: the simulated world shows a picture of its own window"
+             : "";
+}
+
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.
 /// \param is_assumed nobody gives the opening's size
 inline std::string understood(const configuration::Overlay& overlay, bool is_assumed) {

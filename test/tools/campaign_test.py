@@ -37,10 +37,11 @@ def fly(scenario, folder, *arguments):
 
 def test_the_summary_says_what_was_flown(tmp_path):
     params = tmp_path / "params.yaml"
-    params.write_text("vehicle: {half_width_m: 0.3}\n")
+    params.write_text("vehicle: {half_width_m: 0.3}\nwindow_detector: {reference: {picture: /my/window.png}}\n")
     scenario = scenario_in(tmp_path)
     done = fly(scenario, tmp_path / "out", "--seeds", "4..6", "--params", params)
     assert done.returncode == 0 and "the file says a vehicle of 0.4 x 0.6 x 0.14 m, the world has 0.4 x 0.4 x 0.14 m" in done.stderr, done.stderr
+    assert "fly: warning: window_detector/reference is not used" in done.stderr
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     version = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1)
     assert {key: summary[key] for key in ("scenario", "seeds", "draws", "params", "pictures", "version")} == {
