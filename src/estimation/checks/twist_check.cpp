@@ -16,16 +16,21 @@ constexpr double kPieceM = 0.25, kMinWayM = 0.5;  // way of a piece; way before 
 constexpr double kMaxVelocityMisfit = 0.3;        // relative, of way and velocity
 constexpr double kMaxOtherMisfit = 0.4;           // relative misfit of the meaning named instead
 constexpr std::size_t kMaxPieces = 24;
-constexpr std::size_t kMinPieces = 14;  // for a bias; a slide of three seconds affects a minority of them
+constexpr std::size_t kMinPieces = 14;  // to refute; a slide of three seconds affects a minority of them
 constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // prior: satellite navigation
 constexpr double kMaxBiasMps = 0.42;  // satellite navigation: 0.3 m/s, and its positions drift meanwhile
+constexpr double kBiasSigmaMps = 0.07, kNoBiasMps = 1e-6;  // prior of the bias, each axis
 // Odometry with strong drift: jitter, random walk, scale error, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
-constexpr double kMaxSquares = 9.0;          // of one piece: outliers and slides are no frame error
-constexpr double kMaxMeanSquares = 2.2;      // of normalised errors; 1 is expected
+// Of one piece: outliers and slides are no frame error. More counts where no other meaning is compared.
+constexpr double kMaxSquares = 9.0, kMaxOwnSquares = 30.0;
+// Of normalised errors; 1 is expected. Satellite navigation, whose velocity wanders by 0.12 m/s, reached 4.6.
+constexpr double kMaxMeanSquares = 4.8;
 constexpr double kLeastMeanSquares = 0.2;    // floor for comparing meanings: a smaller misfit is chance
 constexpr double kOtherMeaningBetter = 0.5;  // of the reported meaning's squares, for another meaning
-constexpr double kMinEvidence = 10.0;        // for another meaning [nats]
+constexpr double kMinEvidence = 12.0;        // for another meaning [nats]
+// Exact odometry: the other meaning fits better than a bias could make it.
+constexpr double kMaxExactMisfit = 0.15, kMinExactEvidence = 8.0;
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
@@ -107,57 +112,62 @@ double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares)
 
 // A constant error of the velocity, fixed in the body, is no fault of its frame.
 Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
-  if (pieces_.size() < kMinPieces) return Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> errors_mps;
   for (const Piece& piece : pieces_) errors_mps.push_back(piece.error_base_m[meaning] / piece.sec);
   return geometry::componentwiseMedian(errors_mps);
 }
 
-TwistCheck::Sums TwistCheck::sums() const {
+TwistCheck::Sums TwistCheck::sums(double bias_sigma_mps) const {
   Sums sums;
+  double known = 0.0;  // of the bias, against its prior
+  for (const Piece& piece : pieces_) known += square(bias_sigma_mps * piece.sec) / piece.variance;
   Way bias_mps;
   for (int k = 0; k < kMeanings; ++k) {
     bias_mps[k] = biasMps(k);
     const double norm = bias_mps[k].norm();
     if (k == 0) sums.bias_mps = norm;
-    if (norm > kMaxBiasMps) bias_mps[k] *= kMaxBiasMps / norm;
+    bias_mps[k] *= known / (1.0 + known) * std::min(1.0, kMaxBiasMps / norm);
+    sums.misfits[k] = bias_mps[k].squaredNorm() / square(bias_sigma_mps);
   }
   for (const Piece& piece : pieces_) {
     sums.way_m += piece.way_m;
     sums.squares += square(piece.way_m) / piece.variance;
     for (int k = 0; k < kMeanings; ++k) {
       const double error_m = (piece.error_base_m[k] - piece.sec * bias_mps[k]).norm();
-      sums.misfits[k] += std::min(square(error_m) / piece.variance, kMaxSquares);
+      const double squares = square(error_m) / piece.variance;
+      sums.misfits[k] += std::min(squares, kMaxSquares);
+      if (k == 0) sums.own_squares += std::min(squares, kMaxOwnSquares);
     }
   }
   return sums;
 }
 
 // Index of a far better meaning; zero if there is none.
-std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
+std::size_t TwistCheck::betterMeaning(const Sums& sums, double max_misfit, double min_evidence) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
   const double numbers = 3.0 * static_cast<double>(pieces_.size()), floor = kLeastMeanSquares * numbers;
   const double evidence = 0.5 * numbers * std::log((sums.misfits[0] + floor) / (*least + floor));
-  const bool is_good = *least < square(kMaxOtherMisfit) * sums.squares;
-  const bool is_better = is_good && *least < kOtherMeaningBetter * sums.misfits[0] && evidence > kMinEvidence;
+  const bool is_good = *least < square(max_misfit) * sums.squares;
+  const bool is_better = is_good && *least < kOtherMeaningBetter * sums.misfits[0] && evidence > min_evidence;
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
 }
 
 void TwistCheck::judge() {
-  const Sums all = sums();
+  const Sums all = sums(kBiasSigmaMps);
   if (all.way_m < kMinWayM) return;
-  const bool is_biased = all.bias_mps > kMaxBiasMps;
+  const bool is_enough = pieces_.size() >= kMinPieces, is_biased = is_enough && all.bias_mps > kMaxBiasMps;
   if (!is_biased && all.misfit() <= kMaxVelocityMisfit) {
     verdict_ = {FramesVerdict::kGood, ""};
     return;
   }
-  const std::size_t better = betterMeaning(all);
-  const double mean_squares = all.misfits[0] / (3.0 * static_cast<double>(pieces_.size()));
+  const std::size_t exact = betterMeaning(sums(kNoBiasMps), kMaxExactMisfit, kMinExactEvidence);
+  const std::size_t better = exact > 0 ? exact : betterMeaning(all, kMaxOtherMisfit, kMinEvidence);
+  const double mean_squares = all.own_squares / (3.0 * static_cast<double>(pieces_.size()));
   const bool is_refuted = all.misfits[0] <= all.misfits[accused_];
   if (better > 0) {
     verdict_ = {FramesVerdict::kWrong, kNames[better]};
     accused_ = better;
-  } else if (is_biased || (pieces_.size() >= kMinPieces && mean_squares > kMaxMeanSquares)) {
+  } else if (is_biased || (is_enough && mean_squares > kMaxMeanSquares)) {
     verdict_ = {FramesVerdict::kWrong,
                 formatted("twist does not fit the path flown: off by %.0f %% and by a constant %.2f m/s",
                           100.0 * all.misfit(), all.bias_mps)};

@@ -50,15 +50,16 @@ class TwistCheck {
   struct Sums {
     double way_m = 0.0, squares = 0.0;           ///< of the way itself
     std::array<double, kMeanings> misfits = {};  ///< of the errors; all weighted by the variances
-    double bias_mps = 0.0;                       ///< of the velocity as reported
-    double misfit() const;                       ///< relative, of the velocity as reported
+    // Of the velocity as reported:
+    double own_squares = 0.0, bias_mps = 0.0;
+    double misfit() const;  ///< relative
   };
   void startAt(const Sample& now);
   void closePiece(const Eigen::Vector3d& moved_m);
   void judge();
-  Sums sums() const;
+  Sums sums(double bias_sigma_mps) const;
   Eigen::Vector3d biasMps(int meaning) const;
-  std::size_t betterMeaning(const Sums& sums) const;
+  std::size_t betterMeaning(const Sums& sums, double max_misfit, double min_evidence) const;
 
   std::optional<Sample> first_, last_;
   Way integrated_m_{};

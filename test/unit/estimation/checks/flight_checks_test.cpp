@@ -54,7 +54,7 @@ TEST(FlightChecks, FindsATwistInWorldAxes) {
   world.twist = "world";
   int found = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) found += fly(seed, world).state == FramesVerdict::kWrong;
-  EXPECT_GE(found, 36) << "of 40 headings evenly drawn: near zero, world and body are the same";
+  EXPECT_GE(found, 35) << "of 40 headings evenly drawn: near zero, world and body are the same";
 }
 
 TEST(FlightChecks, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
