@@ -77,6 +77,8 @@ class World {
   /// The present reading of the clock, or empty.
   std::optional<double> readClock();
 
+  /// The fault that acts on this unit now, or null.
+  const FaultParams* acting(const char* unit) const { return faults_.acting(unit, time_sec_); }
   /// Adds a fault that begins now. \throws InputError if the fault is impossible
   void inject(FaultParams fault);
 
@@ -91,7 +93,6 @@ class World {
 
  private:
   bool external() const { return scenario_.vehicle.profile == "external"; }
-  const FaultParams* acting(const char* unit) const { return faults_.acting(unit, time_sec_); }
   VehicleTruth besideHouse() const;
   VehicleTruth judged() const;
   void move();

@@ -25,6 +25,12 @@ inline void refuseInLockstep(const simulation::Scenario& scenario) {
                        ", so its fault has no effect; set lockstep to false");
 }
 
+/// \throws InputError for the fault that only `fly` understands
+inline void refuseDeadGuard(const simulation::FaultParams& fault) {
+  if (fault.unit == "guard")
+    throw InputError("fault: only fly simulates the guard; here kill the node setpoint_guard");
+}
+
 /// The world's side of lockstep: publishes its steps and knows when the vehicle has answered.
 ///
 /// An answer is a state (if states are published) and a setpoint (unless the state says that none is

@@ -44,6 +44,7 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       referee_(nh, params_.verdict_file) {
   const simulation::Scenario scenario = load(params_);
   if (scenario.vehicle.profile != "external") publishers_.advertiseVehicle(nh);
+  for (const auto& fault : scenario.faults) refuseDeadGuard(fault);
   if (params_.lockstep) {
     refuseInLockstep(scenario);
     lockstep_.emplace(nh, params_.camera_frame, params_.lockstep_timeout_sec);
@@ -258,6 +259,7 @@ Reply WorldNode::inject(const window_ingress::InjectRequest& request) {
   Reply reply;
   try {
     if (unheard) throw InputError("fault: in lockstep nothing uses " + fault.unit);
+    refuseDeadGuard(fault);
     world_->inject(fault);
     reply = {true, fault.unit + " " + fault.kind +
                        formatted(" from %.3f s for %g s", now().toSec(), fault.duration_sec)};

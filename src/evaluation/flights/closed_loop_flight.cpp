@@ -113,6 +113,7 @@ class Flight {
     result.nearest_m = referee.nearest();
     result.blind_sec = output_.report.blind_sec;
     result.clock_offset = estimator().clockOffset();
+    result.forbidden = forbidden_;
     if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
     result.reason = verdict.outcome == Outcome::kPassed
                         ? verdict.reason
@@ -187,6 +188,7 @@ class Flight {
     const double now_sec = world_.timeSec();
     chooseTarget();
     input_.target = estimator().target(now_sec);
+    noteWhatForbids();
     const facade::KnownWindow* remembered = estimator().facade().target();
     input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
     if (!started_sec_ && input_.image_stamp_sec && was_chosen_) {
@@ -194,11 +196,23 @@ class Flight {
       if (reply.success) started_sec_ = now_sec;
       refusal_ = reply.success ? "" : "not started: " + reply.message;
     }
+    // A dead guard passes nothing on; once the navigator knows, its own zeros reach the vehicle.
+    const simulation::FaultParams* dead_guard = world_.acting("guard");
+    const double silent_sec = dead_guard ? now_sec - dead_guard->at_sec : 0.0;
+    input_.passed_on = silent_sec <= params_.ingress_navigator.guard.max_silence_sec;
     output_ = navigator_.step(input_, now_sec);
     estimator().addNavigatorState(output_.report.window_id, output_.report.given_up,
                                   output_.report.next_window);
-    if (!output_.enabled) return;
+    if (!output_.enabled || (dead_guard && input_.passed_on)) return;
+    if (dead_guard) return world_.command({});
     world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
+  }
+
+  void noteWhatForbids() {
+    if (!forbidden_.empty()) return;
+    const estimation::FramesVerdict frames = estimator().frames();
+    const bool is_wrong = frames.state == estimation::FramesVerdict::kWrong;
+    if (is_wrong || input_.target) forbidden_ = is_wrong ? frames.what : input_.target->approach_forbidden;
   }
 
   void keepTrack() {
@@ -265,7 +279,8 @@ class Flight {
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput output_;
   std::optional<double> started_sec_;
-  std::string refusal_;  // of the start
+  std::string refusal_;    // of the start
+  std::string forbidden_;  // the first reason
   bool detected_ = false, was_chosen_ = false;
   std::vector<TrackPoint> track_;
   FlightTiming timing_;

@@ -58,6 +58,7 @@ FlightResult flightOf(const CsvReader& row) {
   flight.predicted_miss_m = numberIfAny(row, 9);
   flight.reason = row.text(10);
   flight.nearest_m = row.number(11);
+  flight.forbidden = row.text(12);
   return flight;
 }
 
@@ -126,7 +127,7 @@ std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts
 
 std::string csvHeader() {
   return "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-         "predicted_miss_m,reason,nearest_m";
+         "predicted_miss_m,reason,nearest_m,forbidden";
 }
 
 std::string csvRow(const FlightResult& flight) {
@@ -134,7 +135,7 @@ std::string csvRow(const FlightResult& flight) {
          number(flight.offset_y_m) + "," + number(flight.offset_z_m) + "," + number(flight.min_clearance_m) +
          formatted(",%.4f,%.4f,%.3f,", flight.wrong_side_m, flight.max_speed_mps, flight.blind_sec) +
          number(flight.predicted_miss_m) + "," + csvField(replaced(flight.reason, '\n', ' ')) +
-         formatted(",%.4f", flight.nearest_m);
+         formatted(",%.4f,", flight.nearest_m) + csvField(replaced(flight.forbidden, '\n', ' '));
 }
 
 std::string trackHeader() { return "seed,time_s,x_m,y_m,z_m"; }

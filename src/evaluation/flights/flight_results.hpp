@@ -38,6 +38,7 @@ struct FlightResult {
   std::optional<estimation::ClockCheck::Offset>
       clock_offset;  ///< of images against odometry, as found in flight
   std::string reason;
+  std::string forbidden;          ///< first reason for which the checks in flight forbade the approach
   std::vector<TrackPoint> track;  ///< ten points a second
 };
 

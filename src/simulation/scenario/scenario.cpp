@@ -185,6 +185,7 @@ std::string whyNoSuchFault(const FaultParams& fault) {
   if (fault.kind == "slide" && fault.unit != "odom") return what + "only odom can slide";
   if (fault.unit == "camera_info" && fault.kind == "stuck")
     return what + "the calibration never changes; use off or wrong";
+  if (fault.unit == "guard" && fault.kind != "off") return what + "the guard can only be off";
   return "";
 }
 

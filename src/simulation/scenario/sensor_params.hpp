@@ -195,7 +195,8 @@ struct FaultParams {
   double back_sec = 5.0;        ///< wrong clock: delay of the clock [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field.choice("unit", self.unit, {"image", "camera_info", "odom", "imu", "tf", "clock", "cmd_vel"});
+    field.choice("unit", self.unit,
+                 {"image", "camera_info", "odom", "imu", "tf", "clock", "cmd_vel", "guard"});
     field.choice("kind", self.kind,
                  {"off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "slide"});
     field("at_sec", self.at_sec, 0.0, 3600.0);

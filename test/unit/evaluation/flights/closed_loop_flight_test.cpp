@@ -177,6 +177,38 @@ TEST(ClosedLoopFlight, StampsOfOdometryThatAreAheadOfTheirArrivalAreTakenBack) {
   }
 }
 
+/// A flight without images in which the guard dies at full speed, for this long.
+FlightResult withDeadGuard(double duration_sec) {
+  auto scenario = shortFlight();
+  simulation::FaultParams dead;
+  dead.unit = "guard";
+  dead.at_sec = 3.0;
+  dead.duration_sec = duration_sec;
+  scenario.faults = {dead};
+  scenario.vehicle.command_timeout_sec = 3.2;
+  FlightParams params;
+  params.without_images = true;
+  return flyOnce(scenario, 3, params);
+}
+
+TEST(ClosedLoopFlight, ZerosPastADeadGuardStopTheVehicleUntilItIsBack) {
+  EXPECT_EQ(withDeadGuard(1.0).outcome, Outcome::kPassed);
+  const auto flight = withDeadGuard(100.0);
+  EXPECT_EQ(flight.outcome, Outcome::kAborted);
+  EXPECT_NE(flight.reason.find("the guard is silent"), std::string::npos) << flight.reason;
+  EXPECT_LT(flight.max_speed_mps, 1.3);
+}
+
+TEST(ClosedLoopFlight, SaysWhatForbadeTheApproach) {
+  auto scenario = shortFlight();
+  FlightParams params;
+  params.without_images = true;
+  EXPECT_EQ(flyOnce(scenario, 3, params).forbidden, "");
+  scenario.camera.told_yaw_error_rad = 0.3;
+  const auto flight = flyOnce(scenario, 3, params);
+  EXPECT_NE(flight.forbidden.find("yaw"), std::string::npos) << flight.forbidden;
+}
+
 TEST(ClosedLoopFlight, LogHoldsWhatEachImageSaidAndThePredictedMiss) {
   FlightLog log;
   const auto flight = flyOnce(shortFlight(), 1, FlightParams(), {&log});

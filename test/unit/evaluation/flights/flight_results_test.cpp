@@ -48,25 +48,28 @@ class FlightResults : public testing::Test {
 TEST(FlightRow, HasTheColumnsOfTheHeader) {
   EXPECT_EQ(csvHeader(),
             "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-            "predicted_miss_m,reason,nearest_m");
+            "predicted_miss_m,reason,nearest_m,forbidden");
   auto flight = flightWith(7);
   flight.min_clearance_m = 0.25;
   flight.predicted_miss_m = 0.1;
   flight.reason = "crossed";
-  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed,0.0000");
+  flight.forbidden = "twist";
+  EXPECT_EQ(csvRow(flight),
+            "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed,0.0000,twist");
 }
 
 TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
   FlightResult lost;
   lost.outcome = Outcome::kAborted;
   lost.reason = "lost, \"really\"\nlost";
-  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\",0.0000");
+  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\",0.0000,");
 }
 
 TEST_F(FlightResults, ReadsBackWhatItWrote) {
   FlightResult bare;
   bare.seed = 3;
   bare.outcome = Outcome::kTimeout;
+  bare.forbidden = "twist, or not";
   const auto read = readFlights(write("a", {flightWith(2), bare}));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(csvRow(read[0]), csvRow(flightWith(2)));
@@ -99,10 +102,10 @@ TEST_F(FlightResults, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_TRUE(test::says(error({good, good}), "seed 1 was flown twice"));
   EXPECT_TRUE(test::says(error({"/nowhere"}), "/nowhere/tracks.csv: cannot be read"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
-  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: has not 12 fields"));
-  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
+  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: has not 13 fields"));
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0,\n";
   EXPECT_TRUE(test::says(error({good}), "flights.csv:2: 'LANDED' is not an outcome"));
-  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0,\n";
   EXPECT_TRUE(test::says(error({good}), "'soon' is not a number"));
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
   EXPECT_TRUE(test::says(error({good}), "flights.csv:1: is not 'seed,outcome"));
