@@ -103,7 +103,7 @@ def test_the_demo_refuses_a_wrong_value_in_one_line_before_it_installs(arguments
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
 def test_check_platform_refuses_what_it_cannot_do(arguments):
     done = call(SETUP.parents[1] / "dev/check_platform", *arguments)
-    assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, demo" in done.stderr
+    assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, ros_tests, demo" in done.stderr
 
 
 def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
