@@ -1,7 +1,9 @@
 /// Instructions an image, a figure that does not depend on the machine's load. Runs under callgrind, which
 /// writes one file for each subject and sequence, with "subject/sequence" in its head:
 ///   valgrind --tool=callgrind --instr-atstart=no benchmark_instructions --frames=FOLDER [SUBJECT...]
-/// Uses the first images of each sequence, after some to warm up; prints how many are counted.
+/// Uses the first images of each sequence, after some to warm up; prints how many are counted. It writes to
+/// stdout right before and right after, so that an emulator that counts from write to write finds the same
+/// figure.
 #include <valgrind/callgrind.h>
 
 #include <algorithm>
@@ -24,13 +26,15 @@ void count(const Subject& subject, const Sequence& sequence) {
   const std::size_t images = std::min(kImages, sequence.images.size());
   for (std::size_t i = 0; i < 2 + images; ++i) step();
   const std::string name = subject.name + "/" + sequence.name;
+  std::printf("%s ", name.c_str());
+  std::fflush(stdout);
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
   int found = 0;
   for (std::size_t i = 0; i < images; ++i) found += step() ? 1 : 0;
   CALLGRIND_DUMP_STATS_AT(name.c_str());
   CALLGRIND_STOP_INSTRUMENTATION;
-  std::printf("%s pictures=%zu found=%d\n", name.c_str(), images, found);
+  std::printf("pictures=%zu found=%d\n", images, found);
   std::fflush(stdout);
 }
 
