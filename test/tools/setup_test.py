@@ -106,6 +106,17 @@ def test_check_platform_refuses_what_it_cannot_do(arguments):
     assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, ros_tests, demo" in done.stderr
 
 
+@pytest.mark.parametrize("arguments, said", [(["--help"], "[SUITE [FILE.deb [MIRROR]]]"), (["trixie", "/none.deb"], "check_deb: no package /none.deb")])
+def test_check_deb_refuses_what_it_cannot_do(arguments, said):
+    done = call(SETUP.parents[1] / "dev/check_deb", *arguments)
+    assert done.returncode == 2 and not done.stdout and said in done.stderr
+
+
+def test_every_check_of_the_test_script_can_be_named():
+    text = (SETUP.parent / "test").read_text(encoding="utf-8")
+    assert re.findall(r"^check (\w+) ", text, flags=re.M) == text.splitlines()[2].split(": ")[1].split()
+
+
 def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
     """dev/check_install with a build that fails half-way: roslaunch would find its files."""
     for folder in ("dev", "scripts", "build/ros"):
