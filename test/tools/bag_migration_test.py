@@ -1,4 +1,5 @@
 """Bags recorded before messages were nested: 'rosbag fix' converts each of their numbers into the present messages."""
+import inspect
 import sys
 
 import pytest
@@ -6,7 +7,7 @@ import pytest
 rosbag = pytest.importorskip("rosbag")
 import genpy
 from genpy.dynamic import generate_dynamic
-from rosbag.migration import MessageUpdateRule
+from rosbag.migration import MessageMigrator, MessageUpdateRule
 
 from repository import ROOT, run
 
@@ -73,6 +74,8 @@ def leaves(message):
 @pytest.fixture(name="bags", scope="module")
 def fixture_bags(tmp_path_factory):
     """{old type: (old message, migrated message)}, converted through a bag."""
+    if sys.version_info >= (3, 13) and "return locals()[name]" in inspect.getsource(MessageMigrator.make_update_rule):
+        pytest.skip("'rosbag fix' of this system does not work with its Python")
     folder, types, old = tmp_path_factory.mktemp("bags"), old_types(), {}
     with rosbag.Bag(str(folder / "old.bag"), "w") as bag:
         for kind, own in types.items():

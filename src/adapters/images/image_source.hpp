@@ -26,11 +26,13 @@ inline std::string whyNoTransport(const std::string& transport) {
   pluginlib::ClassLoader<Plugin> plugins("image_transport", "image_transport::SubscriberPlugin");
   for (const std::string& plugin : plugins.getDeclaredClasses()) {
     if (transport == "compressed" || plugin == Plugin::getLookupName(transport)) return "";
-    known += ", " + plugin.substr(plugin.find('/') + 1, plugin.rfind("_sub") - plugin.find('/') - 1);
+    const std::string name = plugin.substr(plugin.find('/') + 1, plugin.rfind("_sub") - plugin.find('/') - 1);
+    if (name != "compressed") known += ", " + name;
   }
   return "image_transport is '" + transport + "', available are: " + known +
-         "; for others install the plugin (Noetic: " + "ros-noetic-" + transport +
-         "-image-transport; Debian: build it in your workspace)";
+         "; for others install the plugin (Noetic: ros-noetic-" + transport +
+         "-image-transport; Debian 13: ros-" + transport +
+         "-image-transport; Debian 12: build it in your workspace)";
 }
 
 /// Images of the topic `image_raw` by any transport of image_transport, or by "compressed". The latter is
