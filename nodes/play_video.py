@@ -68,6 +68,7 @@ def play(video, info, frame):
         rate.sleep()
     if rospy.get_param("~stay", False):
         rospy.loginfo("the video is over; close rviz, or press Ctrl-C, to end the launch")
+        sys.stdout.flush()  # rospy does not, and this process goes on
         rospy.spin()
     else:
         rospy.loginfo("the video is over, so the launch ends: roslaunch's red lines are no error")
