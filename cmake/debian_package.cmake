@@ -40,6 +40,7 @@ set(CPACK_PRE_BUILD_SCRIPTS ${folder}/without_bytecode.cmake)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${folder}/triggers ${folder}/postinst ${folder}/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
+  #catkin_lint: ignore_once missing_file
   install(FILES ${folder}/changelog.gz DESTINATION share/doc/${CPACK_PACKAGE_NAME})
   install(FILES LICENSE DESTINATION share/doc/${CPACK_PACKAGE_NAME} RENAME copyright)
 endif()
