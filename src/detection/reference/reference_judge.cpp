@@ -55,7 +55,7 @@ void ReferenceJudge::see(const cv::Mat& image, const geometry::PinholeCamera* ca
   image_ = bgr_ = image;
   camera_ = camera;
   compares_ = reference_ && isGrey(image) == is_grey_;
-  if (image.channels() == 1) {
+  if (compares_ && image.channels() == 1) {
     cv::cvtColor(image, converted_, cv::COLOR_GRAY2BGR);
     bgr_ = converted_;
   }

@@ -112,7 +112,7 @@ class ReferenceJudge {
   bool covered_ = false;
   bool is_grey_ = false;  ///< the reference is grey: only brightness counts
   bool compares_ = false;
-  cv::Mat image_, bgr_, converted_;  ///< as seen; with three channels; memory of the latter
+  cv::Mat image_, bgr_, converted_;  ///< as seen; with three channels if it is compared; memory of the latter
   const geometry::PinholeCamera* camera_ = nullptr;
   std::array<SideProfile, 4> sides_;
 };
