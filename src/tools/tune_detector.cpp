@@ -63,8 +63,7 @@ void save(const std::string& file, const Bench& bench) {
   if (file.empty()) throw InputError("--output is missing: where to save");
   const std::string about =
       "tune_detector: the detector's values that differ from the defaults, without the reference. Put them "
-      "into "
-      "the file of config:=; tools take this file as --params.";
+      "into the file of config:=; tools take this file as --params.";
   const std::string overlay = tools::saveParams(file, about, bench.params());
   std::cout << "written: " << file << "\n" << overlay << std::flush;
 }
