@@ -1,4 +1,5 @@
 // Checks during flight: size, clocks, openness, and what forbids the approach.
+#include <algorithm>
 #include <cmath>
 
 #include "estimation/checks/flight_checks.hpp"
@@ -26,18 +27,19 @@ void TargetEstimator::checkSize(const ObservedImage& image, const Eigen::Isometr
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
-// Images that the filter refuses count, too, because wrong stamps may be the reason.
+// Images that the filter refuses count, too, because wrong stamps may be the reason. Where odometry ends
+// before the stamp, its twist carries the pose on.
 void TargetEstimator::checkClocks(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,
                                   const FilteredWindow& window) {
-  constexpr double kRateSec = 0.1;
-  const auto before = cameraAt(image.stamp_sec - kRateSec, image.T_base_camera);
-  if (!before || !image.window->whole() || !window.motion.model.stands()) return;
-  const Eigen::Matrix3d turned = T_odom_camera.linear() * before->linear().transpose();
+  if (!image.window->whole() || !window.motion.model.stands()) return;
+  const double ahead_sec = std::max(0.0, image.stamp_sec - *odometry_stamp_sec_);
+  const Eigen::Vector2d velocity_mps = motion_.velocity_mps.head<2>();
   const Eigen::Vector3d sight =
       T_odom_camera.linear() * image.camera.ray(geometry::centroid(image.window->corners));
-  clocks_.see({image.stamp_sec, T_odom_camera.translation().head<2>(), std::atan2(sight.y(), sight.x()),
-               geometry::yawOf(turned) / kRateSec},
-              window.T_odom_window.translation().head<2>());
+  clocks_.see(
+      {image.stamp_sec, T_odom_camera.translation().head<2>() + ahead_sec * velocity_mps, velocity_mps,
+       std::atan2(sight.y(), sight.x()) + ahead_sec * motion_.turn_radps.z(), motion_.turn_radps.z()},
+      window.T_odom_window.translation().head<2>());
 }
 
 void TargetEstimator::judgeOpenness(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera,

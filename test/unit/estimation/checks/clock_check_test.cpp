@@ -25,7 +25,7 @@ struct Turning {
       const Eigen::Vector2d position(0.0, sideways_mps * t);
       const double true_azimuth = std::atan2(-position.y(), 4.0);
       const double turned_late = 0.5 * late_sec * (rate(t) + rate(t - late_sec));
-      check.see({t, position, true_azimuth + turned_late + noise(random), rate(t - 0.05)},
+      check.see({t, position, {0.0, sideways_mps}, true_azimuth + turned_late + noise(random), rate(t)},
                 {4.0, believed_off_m});
     }
   }
@@ -56,7 +56,7 @@ TEST(ClockCheck, IsNotLedAstrayByTheWayFlownOrAPlaceSlightlyWrong) {
 
 TEST(ClockCheck, KnowsNothingBeforeATurnBeginsOrEnds) {
   ClockCheck check;
-  for (double t = 0.0; t < 20.0; t += 0.05) check.see({t, {0.0, 0.0}, 0.1, 0.5}, {4.0, 0.0});
+  for (double t = 0.0; t < 20.0; t += 0.05) check.see({t, {0.0, 0.0}, {0.0, 0.0}, 0.1, 0.5}, {4.0, 0.0});
   EXPECT_FALSE(check.offset());
 }
 
@@ -74,11 +74,13 @@ TEST(ClockCheck, IgnoresWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf, -inf}) {
     Turning turning;
-    turning.check.see({bad, {0.0, 0.0}, 0.0, 0.0}, {4.0, 0.0});
-    turning.check.see({0.0, {bad, 0.0}, 0.0, 0.0}, {4.0, 0.0});
-    turning.check.see({0.0, {0.0, 0.0}, bad, 0.0}, {4.0, 0.0});
-    turning.check.see({0.0, {0.0, 0.0}, 0.0, bad}, {4.0, 0.0});
-    turning.check.see({0.0, {0.0, 0.0}, 0.0, 0.0}, {bad, 0.0});
+    const Eigen::Vector2d zero(0.0, 0.0);
+    turning.check.see({bad, zero, zero, 0.0, 0.0}, {4.0, 0.0});
+    turning.check.see({0.0, {bad, 0.0}, zero, 0.0, 0.0}, {4.0, 0.0});
+    turning.check.see({0.0, zero, {0.0, bad}, 0.0, 0.0}, {4.0, 0.0});
+    turning.check.see({0.0, zero, zero, bad, 0.0}, {4.0, 0.0});
+    turning.check.see({0.0, zero, zero, 0.0, bad}, {4.0, 0.0});
+    turning.check.see({0.0, zero, zero, 0.0, 0.0}, {bad, 0.0});
     turning.fly(6.0);
     ASSERT_TRUE(turning.check.offset());
     EXPECT_NEAR(turning.check.offset()->late_sec, 0.0, 0.03);
