@@ -39,12 +39,9 @@ class ClockCheck {
   const std::optional<Offset>& offset() const { return offset_; }
 
  private:
-  struct Shift {
-    double stamp_sec, rate_radps, shift_rad;  ///< of the window's direction relative to the camera
-  };
-  void addChange(const Shift& before, const Shift& now, double elapsed_sec);
+  void addChange(double rate, double shift, double elapsed_sec);
 
-  std::deque<Shift> recent_;
+  std::deque<Sight> recent_;
   /// Weighted sums over independent changes of rate (r) and shift (s).
   double count_ = 0.0, rr_ = 0.0, rs_ = 0.0, ss_ = 0.0;
   std::optional<Offset> offset_;

@@ -26,29 +26,36 @@ bool isFinite(const ClockCheck::Sight& sight) {
          std::isfinite(sight.yaw_rate_radps);
 }
 
+/// The window's apparent direction, relative to that from the camera to its estimated place.
+struct Shift {
+  Shift(const ClockCheck::Sight& sight, const Eigen::Vector2d& window_odom_m) {
+    const Eigen::Vector2d way = window_odom_m - sight.camera_odom_m, &v = sight.velocity_odom_mps;
+    rate_radps = sight.yaw_rate_radps - (v.x() * way.y() - v.y() * way.x()) / way.squaredNorm();
+    shift_rad = geometry::wrapAngle(sight.azimuth_rad - std::atan2(way.y(), way.x()));
+  }
+  double rate_radps, shift_rad;  ///< rate: of the camera's turn relative to the window
+};
+
 }  // namespace
 
 bool ClockCheck::Offset::isTooLarge() const {
   return std::abs(late_sec) > std::max(kMaxOffsetSec, kMaxSigmas * sigma_sec);
 }
 
+// Both ends of a change are seen from the same place of the window, so that learning it counts for nothing.
 void ClockCheck::see(const Sight& sight, const Eigen::Vector2d& window_odom_m) {
   if (!isFinite(sight) || !window_odom_m.allFinite()) return;
-  const Eigen::Vector2d way = window_odom_m - sight.camera_odom_m, &v = sight.velocity_odom_mps;
-  const double azimuth_rate_radps = (v.x() * way.y() - v.y() * way.x()) / way.squaredNorm();
-  const Shift now{sight.stamp_sec, sight.yaw_rate_radps - azimuth_rate_radps,
-                  geometry::wrapAngle(sight.azimuth_rad - std::atan2(way.y(), way.x()))};
-  if (!(std::abs(now.shift_rad) < kStrayRad)) return;
-  const double elapsed_sec = recent_.empty() ? 0.0 : now.stamp_sec - recent_.back().stamp_sec;
+  const double elapsed_sec = recent_.empty() ? 0.0 : sight.stamp_sec - recent_.back().stamp_sec;
   if (!(elapsed_sec > 0.0 && elapsed_sec < kLongestGapSec)) recent_.clear();
-  recent_.push_back(now);
-  while (now.stamp_sec - recent_.front().stamp_sec > kChangeSec) recent_.pop_front();
-  if (now.stamp_sec - recent_.front().stamp_sec > kMinPart * kChangeSec)
-    addChange(recent_.front(), now, elapsed_sec);
+  recent_.push_back(sight);
+  while (sight.stamp_sec - recent_.front().stamp_sec > kChangeSec) recent_.pop_front();
+  if (sight.stamp_sec - recent_.front().stamp_sec < kMinPart * kChangeSec) return;
+  const Shift before(recent_.front(), window_odom_m), now(sight, window_odom_m);
+  if (std::max(std::abs(before.shift_rad), std::abs(now.shift_rad)) < kStrayRad)
+    addChange(now.rate_radps - before.rate_radps, now.shift_rad - before.shift_rad, elapsed_sec);
 }
 
-void ClockCheck::addChange(const Shift& before, const Shift& now, double elapsed_sec) {
-  const double rate = now.rate_radps - before.rate_radps, shift = now.shift_rad - before.shift_rad;
+void ClockCheck::addChange(double rate, double shift, double elapsed_sec) {
   const double weight = std::min(1.0, elapsed_sec / kChangeSec);  // successive changes overlap
   const double kept = 1.0 - weight / kRemembered;
   count_ = kept * count_ + weight;
