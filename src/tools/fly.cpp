@@ -225,6 +225,7 @@ int join(const FlyJob& job) {
 
 int run(const tools::FlyOptions& asked) {
   const FlyJob job = tools::jobOf(asked);
+  if (asked.check) return 0;
   if (!asked.join.empty()) return join(job);
   const auto before = flownBefore(job);
   stopAt(SIGINT);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct FlyOptions {
   std::string scenario, output, seeds = "1", draws, shard, params, log;
   std::vector<std::string> join;
   int jobs = 1;
-  bool resume = false, overwrite = false, no_pictures = false, keep_failures = false, timing = false;
+  bool resume = false, overwrite = false, no_pictures = false, keep_failures = false, timing = false,
+       check = false;
 };
 
 /// The flights to fly, and where the results go.
@@ -61,6 +63,7 @@ inline OptionList describeFly(FlyOptions& o) {
   add("jobs", o.jobs, "flights at the same time", {1, 256});
   add("shard", o.shard, "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", o.join, "flies nothing: joins the folders of several shards into one");
+  add("check", o.check, "flies nothing and writes nothing: only checks scenario and parameters");
   add("params", o.params, kParamsHelp);
   add("no-pictures", o.no_pictures,
       "draws no images: simulates a perfect detector. Many times faster; tests what follows the detector "
@@ -104,6 +107,17 @@ inline void checkFlownWith(const FlyOptions& o, const std::string& folder) {
                    "give those that " + file + " shows, or another folder");
 }
 
+/// Says which keys of the file only nodes use; empty: none.
+inline std::string onlyForNodes(const configuration::Overlay& overlay) {
+  static const std::regex kUsed(
+      "vehicle/.*|window_detector/(detector|interior|reference)/.*|homography_pose/(pose|filter|tracker)/.*|"
+      "ingress_navigator/(navigator/.*|rate_hz|guard/max_silence_sec)");
+  std::vector<std::string> keys;
+  for (const std::string& key : overlay.given)
+    if (!std::regex_match(key, kUsed)) keys.push_back(key);
+  return keys.empty() ? "" : "not used, because no nodes run: " + parameters::joined(keys, ", ");
+}
+
 inline FlyJob jobOf(const FlyOptions& o) {
   FlyJob job{o};
   if (o.resume && o.overwrite) throw InputError("--resume and --overwrite: give one of them");
@@ -115,12 +129,14 @@ inline FlyJob jobOf(const FlyOptions& o) {
   job.seeds = seedsOf(job);
   if (!o.params.empty()) {
     job.params = {configuration::readOverlay(o.params)};
+    const std::uint32_t seed = job.seeds.empty() ? 1U : job.seeds.front();  // a shard may be empty
     for (const std::string& other :
-         {otherSizes(job.params, job.scenario(job.seeds.front())), otherReference(job.params)})
+         {otherSizes(job.params, job.scenario(seed)), otherReference(job.params), onlyForNodes(job.params)})
       if (!other.empty()) std::cerr << "fly: warning: " << other << "\n";
   }
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);
+  if (o.check) return job;
   makeFolder(o.output);
   if (!o.log.empty()) makeFolder(o.log);
   if (!o.keep_failures) return job;

@@ -31,6 +31,13 @@ inline std::vector<std::string> wordsOfParent() {
   return words;
 }
 
+/// Nodes run in another folder, but this program does not: here a relative path is valid if the file exists.
+inline std::string existing(const std::string& file) {
+  if (!file.empty() && !std::filesystem::exists(file))
+    throw InputError("config " + std::filesystem::absolute(file).string() + ": no such file");
+  return file;
+}
+
 inline bool isRoslaunch(const std::vector<std::string>& words) {
   return std::any_of(words.begin(), words.end(), [](const std::string& word) {
     return std::filesystem::path(word).filename() == "roslaunch";

@@ -149,19 +149,22 @@ inline std::string otherReference(const configuration::Overlay& overlay) {
 }
 
 /// Sizes of vehicle and opening, so that the user notices a mistyped one.
-/// \param is_assumed nobody gives the opening's size
-inline std::string understood(const configuration::Overlay& overlay, bool is_assumed) {
+/// \param is_simulated the scenario gives the sizes that the file does not give
+inline std::string understood(const configuration::Overlay& overlay, bool is_simulated) {
   const auto& vehicle = overlay.vehicle;
   const auto& pose = overlay.homography_pose.pose;
-  const bool gives_vehicle = overlay.gives("vehicle/half_width_m") || overlay.gives("vehicle/half_height_m");
+  const bool gives_vehicle =
+      is_simulated || overlay.gives("vehicle/half_width_m") || overlay.gives("vehicle/half_height_m");
   const std::string body = "a vehicle of " + sizeOf(vehicle) + " (length, width, height" +
                            (gives_vehicle ? ")" : "; assumed: its size is not given)");
   if (pose.scale_sigma > 0.0) return body + " through an opening whose size is measured in flight";
+  const double beside_m = 0.5 * pose.opening_width_m - vehicle.half_width_m;
+  const double above_m = 0.5 * pose.opening_height_m - vehicle.half_height_m;
   return body + " through " + sizeOf(pose) +
-         formatted("%s: %.2f m free on each side, %.2f m above and below",
-                   is_assumed ? " (assumed: no size of the opening is given)" : "",
-                   0.5 * pose.opening_width_m - vehicle.half_width_m,
-                   0.5 * pose.opening_height_m - vehicle.half_height_m);
+         (is_simulated || givesOpening(overlay) ? "" : " (assumed: no size of the opening is given)") +
+         (std::min(beside_m, above_m) <= 0.0
+              ? ": it does not fit"
+              : formatted(": %.2f m free on each side, %.2f m above and below", beside_m, above_m));
 }
 
 inline void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {

@@ -37,11 +37,13 @@ def fly(scenario, folder, *arguments):
 
 def test_the_summary_says_what_was_flown(tmp_path):
     params = tmp_path / "params.yaml"
-    params.write_text("vehicle: {half_width_m: 0.3}\nwindow_detector: {reference: {picture: /my/window.png}}\n")
+    params.write_text("vehicle: {half_width_m: 0.3}\nwindow_detector: {max_rate_hz: 3, reference: {picture: /my/window.png}}\n"
+                      "setpoint_guard: {max_speed_mps: 0.1}\ningress_navigator: {rate_hz: 30, max_silence_sec: 0.2, navigator: {limits: {speed_mps: 0.5}}}\n")
     scenario = scenario_in(tmp_path)
     done = fly(scenario, tmp_path / "out", "--seeds", "4..6", "--params", params)
     assert done.returncode == 0 and "the file says a vehicle of 0.4 x 0.6 x 0.14 m, the world has 0.4 x 0.4 x 0.14 m" in done.stderr, done.stderr
     assert "fly: warning: window_detector/reference is not used" in done.stderr
+    assert "fly: warning: not used, because no nodes run: ingress_navigator/max_silence_sec, setpoint_guard/max_speed_mps, window_detector/max_rate_hz\n" in done.stderr
     summary = json.loads((tmp_path / "out/summary.json").read_text())
     version = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1)
     assert {key: summary[key] for key in ("scenario", "seeds", "draws", "params", "pictures", "version")} == {
@@ -144,7 +146,7 @@ def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     command[command.index("1..2")] = "1..4"
     assert call(*command, "--resume").returncode == 0  # as after Ctrl-C: summed up, and not all of them
     assert json.loads((tmp_path / "short/summary.json").read_text())["seeds"] == "1..4"
-    assert call(*command, "--resume").stderr == "campaign: all flights are there, none is left to fly\n"
+    assert not call(*command, "--resume").stderr
 
 
 def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on(tmp_path):
@@ -176,13 +178,24 @@ def test_flights_whose_header_was_cut_off_are_refused_with_what_to_do(tmp_path):
         assert fly(scenario, out, "--seeds", "1..2", "--resume").returncode == 0
 
 
-def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
-    bad = tmp_path / "bad.yaml"
+def test_nothing_is_flown_or_replaced_if_one_scenario_is_wrong(tmp_path):
+    good, bad = scenario_in(tmp_path), tmp_path / "bad.yaml"
+    (tmp_path / "out/short/shards").mkdir(parents=True)
     bad.write_text("start: {distance_m: 500}\n")
-    done = run("campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--shards", "2", bad)
-    assert done.returncode == 1
-    assert "distance_m = 500 is not within" in done.stderr
-    assert not (tmp_path / "out/table.md").exists()
+    done = run("campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--overwrite", bad, good)
+    assert done.returncode == 2 and done.stderr.count("distance_m = 500 is not within") == 1, done.stderr
+    assert done.stderr.endswith(f"campaign: nothing flown: see what fly says above of {bad}\n"), done.stderr
+    assert [file.name for file in (tmp_path / "out").rglob("*")] == ["short", "shards"]
+
+
+def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
+    command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", scenario_in(tmp_path)]
+    assert call(*command).returncode == 0
+    (tmp_path / "short/shards/1_of_1/flights.csv").write_text("")
+    (tmp_path / "short/shards/1_of_1/summary.json").unlink()
+    done = call(*command, "--resume")
+    assert done.returncode == 1 and f"campaign: the flights of {tmp_path}/short.yaml cannot be joined" in done.stderr, done.stderr
+    assert not (tmp_path / "table.md").exists()
 
 
 def test_scenarios_flown_elsewhere_are_left_out_with_a_line(tmp_path):

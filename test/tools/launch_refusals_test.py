@@ -33,6 +33,16 @@ def test_what_a_launch_file_would_refuse_is_refused_by_hand_too(tmp_path):
         assert done.returncode == 2 and not done.stdout and why in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("text", ["", "windows: {}\nstart: {distance_m: 3}\nwind: {}\n", "vehicle: {mass_kg: 1.0}\n"])
+def test_a_scenario_in_place_of_a_parameter_file_is_one_line(tmp_path, text):
+    scenario = tmp_path / "mine.yaml"
+    scenario.write_text(text or (ROOT / "config/scenarios/brick.yaml").read_text())
+    done = run("check_overlay", scenario)
+    assert done.returncode == 2 and done.stderr == (f"check_overlay: {scenario}: is a scenario, no parameter file: launch files take it as "
+                                                    "scenario:=, tools, check-config too, as --scenario\n")
+    assert run("check_overlay", "--scenario", scenario).returncode == (2 if "windows" in text else 0)
+
+
 @pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers"),
                                         ("0.1,0.5,0.02,0,0,0", "lies outside of the vehicle"), ("0.1,0,0.02,0,2,0", "does not look forward")])
 def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, said):

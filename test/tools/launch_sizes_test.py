@@ -46,6 +46,13 @@ def test_the_simulated_world_is_flown_by_the_sizes_of_its_scenario_unless_the_us
     assert sizes(f"config:={config}") == [0.7, 0.45, 0.2, 0.22, 0.07]
 
 
+@pytest.mark.parametrize("width, free", [(1.3, "0.05 m free on each side, 0.43 m above and below"), (1.1, "it does not fit")])
+def test_a_size_that_the_scenario_gives_is_not_assumed(tmp_path, width, free):
+    (tmp_path / "wide.yaml").write_text(f"vehicle: {{half_width_m: 0.6}}\nwindow: {{width_m: {width}}}\n")
+    assert run("check_overlay", "--scenario", tmp_path / "wide.yaml").stderr == (
+        f"check_overlay: a vehicle of 0.4 x 1.2 x 0.14 m (length, width, height) through {width} x 1 m: {free}\n")
+
+
 def test_what_is_missing_of_a_size_is_named(tmp_path):
     config = tmp_path / "drone.yaml"
     config.write_text("vehicle: {half_length_m: 0.3, half_width_m: 0.3}\nhomography_pose: {pose: {opening_width_m: 1.3}}\n")
