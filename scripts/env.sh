@@ -3,6 +3,12 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_ros=$root/build/ros
 build_core=$root/build/core
 
+# catkin's generators, make and roslaunch split such a path, but only after minutes.
+if [[ $root == *[][:space:]\"\'\`\$\&\;\|\<\>\(\){}*?!#\\:%[]* ]]; then
+  echo "${0##*/}: catkin cannot build in '$root': move the clone to a path without blanks, quotes, brackets and the like" >&2
+  exit 2
+fi
+
 # catkin needs the system's python3: another one first on PATH fails with "No module named catkin_pkg".
 export PATH="/usr/bin:$PATH"
 

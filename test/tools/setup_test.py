@@ -129,6 +129,15 @@ def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
     assert [file.name for file in (tmp_path / "build/ros").iterdir()] == ["CMakeCache.txt"]
 
 
+@pytest.mark.parametrize("folder, is_taken", [("my drone", False), ("ingress(1)", False), ("a:b", False), ("it's", False), ("v2+é_x-1.0", True)])
+def test_a_clone_in_a_folder_that_catkin_cannot_take_is_refused_at_once(tmp_path, folder, is_taken):
+    shutil.copytree(SETUP.parent, tmp_path / folder / "scripts")
+    for script in ("setup", "build", "demo", "test"):
+        done = call(tmp_path / folder / "scripts" / script, "--help")
+        refused = f"{script}: catkin cannot build in '{tmp_path}/{folder}': move the clone to a path without blanks, quotes, brackets and the like\n"
+        assert (done.returncode, done.stderr) == ((0, "") if is_taken else (2, refused))
+
+
 @pytest.mark.parametrize("command, said", [
     (["run", "roslaunch", "window_ingress", "sim.launch"], "run: no nodes of window_ingress; is the package built? (scripts/build)\n"),
     (["run", "roslaunch9", "window_ingress", "sim.launch"], "run: no 'roslaunch9' here; ./scripts/setup installs ROS\n"),
