@@ -107,9 +107,10 @@ def print_without_reference(records, per_scene):
               f"| {sum(r['hit'] for r in some)} of {len(some)} | {rules.percent(exact)}{f' of {count}' if count else ''} "
               f"| {milliseconds(some)} |")
     exact, count = precision(records)
-    print(f"\nAll tiers where exhaustive: precision {rules.percent(exact)} of {count} detections.")
+    print(f"\nAll tiers where exhaustive: {f'precision {rules.percent(exact)} of {count}' if count else 'no'} detections.")
     for name, hard in (("without a target", False), ("with other rectangles", True)):
-        print(f"Images {name}: false alarms on {alarms([r for r in records if not r['target'] and r['hard'] == hard])}.")
+        some = [r for r in records if not r["target"] and r["hard"] == hard]
+        print(f"Images {name}: {f'false alarms on {alarms(some)}' if some else 'none'}.")
     if per_scene:
         print("\n| scene | tier | found |\n|---|---|---|")
         for tier, scene in sorted({(r["tier"], r["scene"]) for r in targets}):

@@ -192,6 +192,19 @@ Job prepare(const Options& o) {
   return job;
 }
 
+// Whether a JPEG's end is missing: OpenCV leaves the rest grey. What follows the end, e.g. a video, does not
+// count, nor does the end of a preview within a segment.
+bool isCutJpeg(const std::string& bytes) {
+  if (bytes.size() < 4 || bytes.rfind("\xFF\xD8", 0) != 0) return false;
+  for (std::size_t at = 2; (at = bytes.find('\xFF', at)) < bytes.size() - 3;) {
+    const auto byte = [&](int i) { return static_cast<unsigned char>(bytes[at + i]); };
+    if (byte(1) == 0xD9) return false;
+    const bool is_segment = byte(1) >= 0xC0 && byte(1) < 0xFF && (byte(1) < 0xD0 || byte(1) > 0xD7);
+    at += is_segment ? 2 + 256 * byte(2) + byte(3) : byte(1) == 0xFF ? 1 : 2;
+  }
+  return bytes.substr(bytes.size() - 2) != "\xFF\xD9";
+}
+
 evaluation::DetectionRow process(const cv::Mat& image, const Job& job, WindowFinder& finder) {
   evaluation::DetectionRow row;
   const bool fits = job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
@@ -233,13 +246,16 @@ int run(const Options& o) {
   int unreadable = 0, found = 0, not_compared = 0;
   tools::Progress progress("detect_images", "images", images.size());
   for (const std::string& file : images) {
-    const cv::Mat image = evaluation::imageOrNone(file);
+    const bool is_cut = isCutJpeg(tools::contentOf(file));
+    const cv::Mat image = is_cut ? cv::Mat() : evaluation::imageOrNone(file);
     evaluation::DetectionRow row;
     if (image.empty()) {
       ++unreadable;
       finder.skip();
       row.reject_reason = "unreadable";
-      std::cerr << "detect_images: " << file << ": cannot be read as an image; skipped" << std::endl;
+      std::cerr << "detect_images: " << file
+                << (is_cut ? ": its end is missing" : ": cannot be read as an image") << "; skipped"
+                << std::endl;
     } else {
       row = process(image, job, finder);
       found += row.window.has_value();

@@ -93,12 +93,14 @@ def test_missing_image_is_named(tmp_path):
     assert_refused(run("detect_images", "--output", tmp_path / "out.csv", missing), 2, missing)
 
 
-def test_unreadable_image_is_named_and_the_others_are_done(tmp_path, image):
-    broken = tmp_path / "broken.png"
-    broken.write_bytes(image.read_bytes()[:40])
+@pytest.mark.parametrize("ending, share", [("png", 0.2), ("jpg", 0.8)])
+def test_unreadable_image_is_named_and_the_others_are_done(tmp_path, image, ending, share):
+    broken = tmp_path / f"broken.{ending}"
+    whole = cv2.imencode(f".{ending}", cv2.imread(str(image)))[1].tobytes()
+    broken.write_bytes(whole[:int(share * len(whole))])
     output = tmp_path / "out.csv"
     result = run("detect_images", "--output", output, broken, image)
-    assert result.returncode == 1
+    assert result.returncode == 1 and "Premature" not in result.stderr
     assert sum(str(broken) in line for line in result.stderr.splitlines()) == 1
     rows = output.read_text().splitlines()
     assert len(rows) == 3
