@@ -128,6 +128,21 @@ def test_the_demo_says_how_far_the_build_is_while_it_builds(tmp_path):
     assert demo.returncode == 1
 
 
+def test_the_demo_keeps_its_last_flight_if_the_scenario_is_wrong(tmp_path):
+    (tmp_path / "scripts").mkdir()
+    (tmp_path / "out/demo").mkdir(parents=True)
+    kept = tmp_path / "out/demo/flight.bag"
+    kept.write_text("")
+    for name in ("demo", "env.sh"):
+        shutil.copy(ROOT / "scripts" / name, tmp_path / "scripts")
+    for name, text in (("setup", ""), ("build", ""), ("run", f"exec {ROOT}/scripts/run \"$@\"")):
+        (tmp_path / "scripts" / name).write_text(f"#!/bin/bash\n{text}\n")
+        (tmp_path / "scripts" / name).chmod(0o755)
+    (tmp_path / "mine.yaml").write_text("window: {sil_m: 1}\n")
+    done = call(tmp_path / "scripts/demo", "--scenario", tmp_path / "mine.yaml")
+    assert done.returncode == 2 and "mine.yaml:1: window/sil_m: unknown key" in done.stderr and kept.exists(), done.stderr
+
+
 def test_what_is_started_again_does_not_end_the_launch():
     assert not any(node["required"] for node in dump("ingress", "fly:=false", "respawn:=true")["nodes"].values())
 
