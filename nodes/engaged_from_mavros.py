@@ -6,7 +6,8 @@ autopilot makes a silent topic. A message is decoded by the definition sent with
 Parameter ~modes: modes in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
 default true: an autopilot in a failsafe (MAV_STATE critical or worse: low battery, lost link) counts as not engaged.
 
-Reports on /diagnostics why the autopilot does not follow: silent, not connected, in a failsafe.
+Reports on /diagnostics why the autopilot does not follow: silent, not connected, in a failsafe, in a mode of another autopilot; warns
+of a second source and of messages that are no state.
 
 Publishes `companion_status` (mavros_msgs/CompanionProcessStatus) once a second, from the navigator's `state`, if mavros_msgs is
 installed and knows the component USER1. The ground station then shows this computer as stand-by, active or, if the navigator falls
@@ -32,15 +33,21 @@ except ImportError:
     CompanionProcessStatus = None
 
 FIELDS = ("connected", "armed", "mode")
+SETPOINT_MODES = "OFFBOARD", "GUIDED"  # of PX4, of ArduPilot
+LONGEST = 300  # characters of a text
+KINDS = 5  # of messages are remembered
 LINES = 100  # at most this many wait to be written
 MAV_STATE_CRITICAL = 5  # higher values: emergency, power off, termination
 MAX_SILENCE_S = 2.0  # of the navigator, or the autopilot
+REFUSED_S = 5.0  # a refused message is remembered this long
 AT_REST = IngressState.IDLE, IngressState.PASSED, IngressState.ABORTED
 
 
 class Relay:
     def __init__(self, modes, heeds_failsafe):
-        self._modes, self._heeds_failsafe, self._class, self._said = modes, heeds_failsafe, None, None
+        self._modes, self._heeds_failsafe, self._said = modes, heeds_failsafe, None
+        self._classes = {}  # by definition: a stranger may send another type
+        self._refused, self._refused_at = None, 0.0
         self._level, self._heard = DiagnosticStatus.OK, None
         self._lines = queue.Queue(LINES)
         threading.Thread(target=self._speak, daemon=True).start()
@@ -56,13 +63,15 @@ class Relay:
         fails = self._heeds_failsafe and getattr(state, "system_status", 0) >= MAV_STATE_CRITICAL
         engaged = bool(state.connected and state.armed and state.mode in self._modes and not fails)
         self._publisher.publish(engaged)
+        modes = "" if state.mode in self._modes else f" (it follows in {' or '.join(self._modes)})"
         said = f"{'follows' if engaged else 'does not follow'} setpoints: " \
-               f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}" \
+               f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}{modes}" \
                f"{', in a failsafe' if fails else ''}"
         if said != self._said:
             self._say(rospy.loginfo, "the autopilot " + said)
             self._said = said
-        self._level = DiagnosticStatus.ERROR if fails or not state.connected else DiagnosticStatus.OK
+        of_another = state.mode in SETPOINT_MODES and modes
+        self._level = DiagnosticStatus.ERROR if fails or not state.connected else DiagnosticStatus.WARN if of_another else DiagnosticStatus.OK
         self._heard = time.monotonic()
 
     def _health(self):
@@ -70,6 +79,11 @@ class Relay:
             return DiagnosticStatus.ERROR, f"nothing on {self._subscriber.resolved_name} so far"
         if time.monotonic() - self._heard > MAX_SILENCE_S:
             return DiagnosticStatus.ERROR, f"{self._subscriber.resolved_name} has fallen silent"
+        if self._level == DiagnosticStatus.OK:
+            if self._refused and time.monotonic() - self._refused_at < REFUSED_S:
+                return DiagnosticStatus.WARN, f"{self._refused}; the autopilot {self._said}"
+            if self._subscriber.get_num_connections() > 1:
+                return DiagnosticStatus.WARN, f"more than one source on {self._subscriber.resolved_name}: the autopilot {self._said}"
         return self._level, f"the autopilot {self._said}"
 
     def _repeat(self):
@@ -93,15 +107,24 @@ class Relay:
 
     def _decode(self, message):
         header = message._connection_header
-        if self._class is None:
-            self._class = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])[header["type"]]
-        missing = [name for name in FIELDS if name not in self._class.__slots__]
-        if missing:
-            self._say(functools.partial(rospy.logerr_throttle, 5.0),
-                      f"{self._subscriber.resolved_name} is {header['type']}, without {', '.join(missing)}; it must be mavros_msgs/State")
-            self._class = None
-            return None
-        return self._class().deserialize(message._buff)
+        try:
+            kind = self._class_of(header["type"], header["message_definition"])
+            missing = [name for name in FIELDS if name not in kind.__slots__]
+            why = f"without {', '.join(missing)}; it must be mavros_msgs/State" if missing else None
+            if not missing:
+                return kind().deserialize(message._buff)
+        except Exception as error:  # whatever a stranger sends: no exception leaves a callback
+            why = f"not readable: {error}"
+        self._refused, self._refused_at = f"{self._subscriber.resolved_name} is {header.get('type')}, {why}"[:LONGEST], time.monotonic()
+        self._say(functools.partial(rospy.logerr_throttle, 5.0), self._refused)
+        return None
+
+    def _class_of(self, kind, definition):
+        if (kind, definition) not in self._classes:
+            if len(self._classes) >= KINDS:
+                self._classes.clear()
+            self._classes[kind, definition] = genpy.dynamic.generate_dynamic(kind, definition)[kind]
+        return self._classes[kind, definition]
 
 
 class Companion:

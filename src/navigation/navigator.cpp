@@ -122,11 +122,8 @@ struct Navigator::Impl {
     if (!timed_out.empty()) return stop(Event::kGiveUp, timed_out + byFence());
     if (mission.from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
       return stop(Event::kGiveUp, "outside the fence");
-    const double turned_rad = observer.turnedRad();
-    if (!isInOpening(situation) && std::abs(turned_rad) > params.input.max_turned_rad)
-      return stop(Event::kGiveUp, formatted("the vehicle moves %.2f rad off the commanded direction: "
-                                            "setpoints and odometry differ in axes",
-                                            turned_rad));
+    const std::string beside = isInOpening(situation) ? "" : howItMovesBeside(observer, params.input);
+    if (!beside.empty()) return stop(Event::kGiveUp, beside);
     const std::string missing = isMoving(state) ? missingInput(state, situation) : "";
     return missing.empty() ? std::nullopt : std::optional(stop(Event::kInputStale, missing));
   }

@@ -24,7 +24,7 @@ inline std::map<std::string, std::string> typesIn(const std::vector<std::string>
   try {
     for (const auto& file : bags) {
       if (const std::string damage = adapters::whyDamaged(file); !damage.empty())
-        throw InputError(file + ": damaged: " + damage);
+        throw InputError(file + ": damaged: " + damage + "; repair it with 'rosbag reindex'");
       const rosbag::Bag bag(file);
       for (const auto* topic : rosbag::View(bag).getConnections()) types[topic->topic] = topic->datatype;
     }

@@ -2,6 +2,7 @@
 """px4.launch with a simulated MAVROS: stand-by, engagement, a pilot who takes over, and a navigator killed in flight."""
 import os
 import signal
+import subprocess
 import sys
 import time
 import unittest
@@ -74,8 +75,23 @@ class AutopilotTest(unittest.TestCase):
             reply = self.call("start")
             self.assertFalse(reply.success)
             self.assertIn("not armed, not in a mode", reply.message)
+        support.wait_for(lambda: "disarmed, mode OFFBOARD" in self.call("start").message, "a start that names the autopilot's mode")
+        type(self).armed, type(self).mode = True, "GUIDED"
+        support.Diagnostics().wait("engaged_from_mavros: autopilot", "mode GUIDED (it follows in OFFBOARD)")
         self.assertEqual(self.fly().header.frame_id, "map")
         self.companion_is(CompanionProcessStatus.MAV_STATE_ACTIVE)
+
+    def test_1_strangers_beside_the_autopilot_are_named(self):
+        said = support.Diagnostics()
+        for topic, name, words in (("/engaged", "ingress_navigator: engaged", "more than one source on /engaged"),
+                                   ("/mavros/state", "engaged_from_mavros: autopilot", "is std_msgs/Bool, without connected")):
+            stranger = subprocess.Popen(["rostopic", "pub", "-r", "5", topic, "std_msgs/Bool", "data: false"], stdout=subprocess.DEVNULL)
+            try:
+                said.wait(name, words)
+            finally:
+                stranger.terminate()
+                stranger.wait(10)
+        self.fly()
 
     def test_2_a_pilot_who_takes_over_has_it_until_the_next_start(self):
         type(self).mode = "POSCTL"

@@ -94,6 +94,7 @@ class KinematicPlant {
   openness::Openness openness;
   bool hides_window = false;
   bool hides_odometry = false;
+  bool z_points_down = false;  ///< in odometry, not in the setpoints
 
  private:
   navigation::VehicleState vehicle() const {
@@ -101,6 +102,10 @@ class KinematicPlant {
     state.stamp_sec = time_;
     state.T_odom_base = geometry::makePose(geometry::yawRotation(yaw_), position_ + drift_);
     state.velocity_odom_mps = velocity_ + carried_mps_;
+    if (z_points_down) {
+      state.T_odom_base.translation().z() *= -1.0;
+      state.velocity_odom_mps.z() *= -1.0;
+    }
     return state;
   }
 

@@ -28,6 +28,8 @@ def seen(topics=(), said=()):
     system.graph = types.SimpleNamespace(publishers={topic: ["/camera"] for topic in topics},
                                          topics_of_type=lambda kind: sorted(t for t, k in topics.items() if k == kind))
     system.said = {name: types.SimpleNamespace(level=level, message="") for name, level in dict(said).items()}
+    system.graph.answers = lambda node: node not in system.dead
+    system.dead, system.nodes, system.alive, system.inputs = [], {}, {}, {}
     return system
 
 
@@ -95,6 +97,47 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
     report.say()
     said = capsys.readouterr().out
     assert said.startswith(words) and "arm, and switch" not in said
+
+
+@pytest.mark.parametrize("publishers, dead, words", [
+    (["/engaged_from_mavros"], ["/engaged_from_mavros"], "ERROR  /engaged_from_mavros is registered but does not answer"),
+    (["/engaged_from_mavros", "/stranger"], [], "ERROR  /engaged: 2 publishers: /engaged_from_mavros, /stranger")])
+def test_what_engages_is_named_where_it_hangs_or_is_not_alone(doctor, capsys, publishers, dead, words):
+    system = seen(said={"ingress_navigator: engaged": 2})
+    system.said["ingress_navigator: engaged"].message = "/engaged has fallen silent: assumed to be out of control"
+    system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
+    system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
+    system.graph.publishers["/engaged"], system.dead = publishers, dead
+    report = findings.Report()
+    doctor.check_engaged(system, report)
+    doctor.check_what_nodes_say(system, report)
+    assert report.say() == 1
+    said = capsys.readouterr().out
+    assert said.startswith(words)
+    assert dead or "rosnode kill /stranger\n" in said
+
+
+# The texts of the nodes, whole.
+@pytest.mark.parametrize("text, mend", [
+    ("ABORTED: odometry sinks where the vehicle is told to climb, or climbs where told to sink: setpoints and odometry differ in axes, here z, which "
+     "must point up", "take over; odometry must be ENU"),
+    ("ABORTED: aborted: unknown to the ROS master, which was restarted: take over", "take over by the pilot's switch, end all launches"),
+    ("/odom (1 publisher): twist is all zero while the position moves", "let the odometry's driver fill in"),
+    ("APPROACH: odometry: position and velocity disagree by 0.40 m/s", "twist must be the velocity"),
+    ("more than one source on /engaged: follows setpoints", "scripts/run rostopic info names them"),
+    ("the autopilot does not follow setpoints: armed, mode OFFBOARD (it follows in GUIDED)", "px4.launch is for PX4"),
+    ("the autopilot does not follow setpoints: armed, mode RTL (it follows in GUIDED), in a failsafe", "read in the ground station"),
+    ("/mavros/state is std_msgs/Bool, without connected, armed, mode; it must be mavros_msgs/State; the autopilot follows setpoints: armed, mode OFFBOARD",
+     "scripts/run rostopic info"),
+    ("camera mounting turned by about 22 deg in yaw; no approach", "is the image upside down or mirrored?"),
+    ("images are stamped 0.75 +- 0.03 s late relative to odometry: correct the driver's stamps", "upside down or mirrored"),
+    ("110 images show a window, but none is the reference's: correlation with the reference's surroundings 0.101 < 0.88", "red and blue exchanged"),
+    ("attitudes of imu and odometry differ by 30 deg: different axes?", "one of them has other axes"),
+    ("twist looks like world frame, not body frame", "axes of child_frame_id"),
+    ("/odom (1 publisher) refused, 9 so far: quaternion has length 2.000000 instead of 1", "normalise"),
+    ("30 of 50 images contradict the estimated window and were not used; of the others: normalised innovation squared 0.13", "measure the opening")])
+def test_a_text_of_a_node_has_its_remedy(text, mend):
+    assert mend in remedies.remedy(text)
 
 
 @pytest.mark.parametrize("world_says, words", [("odometry", "ERROR  /odom: /drone advertises it and sends nothing"),

@@ -30,7 +30,7 @@ def check_input(system, report, topic, kind, readers):
     elif type_ not in (kind, "*"):
         report.error(f"{topic}: is a {type_}, {readers} reads {kind}", another_topic(system, topic, kind), [topic], **place)
     elif not sample.times:
-        report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", f"look at its log: scripts/run rosnode info {publishers[0]}",
+        report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", f"if it plays a file, that is over; else read what it says on its console or in ~/.ros/log, and start it again",
                      [topic], **place)
     elif len(publishers) > 1:
         report.error(f"{topic}: {len(publishers)} publishers: {', '.join(publishers)}", f"stop one of them: scripts/run rosnode kill {publishers[-1]}",

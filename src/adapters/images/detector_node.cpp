@@ -11,6 +11,7 @@
 #include "adapters/images/image_source.hpp"
 #include "adapters/images/processing_time.hpp"
 #include "adapters/images/reference_source.hpp"
+#include "adapters/images/unlike_reference.hpp"
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/inputs/camera_source.hpp"
 #include "adapters/nodes.hpp"
@@ -125,6 +126,7 @@ class DetectorNode : public Node {
     seen.expected = expectedAt(header);
     const auto& window = perception_.update(seen);
     searched_sec_ = steadyNowSec();
+    unlike_.see(perception_.trace(), perception_.window().has_value());
     looked_ = header.stamp;
     last_image_ = decoded;
     window_ingress::WindowDetection message = window ? toMsg(*window) : toMsg(perception_.trace());
@@ -209,8 +211,8 @@ class DetectorNode : public Node {
     const double silent_sec = steadyNowSec() - searched_sec_;
     if (silent_sec > kSilenceSec)
       return {Health::kWarn, formatted("no image for %.0f s", std::floor(silent_sec))};
-    return {Health::kOk,
-            perception_.window() ? "window in view" : "no window: " + perception_.trace().detail};
+    if (perception_.window()) return {Health::kOk, "window in view"};
+    return unlike_.health(perception_.trace().detail);
   }
 
   Health referenceHealth() const {
@@ -234,6 +236,7 @@ class DetectorNode : public Node {
   Tuning tuning_;
   cv::Mat canvas_;
   DecodedImage last_image_;
+  UnlikeReference unlike_;
   double searched_sec_ = 0.0;  ///< time of the last searched image, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // source of the reference; empty: no reference

@@ -31,8 +31,8 @@ class EngagementMonitor {
     return engaged_ && !isSilent(now_sec);
   }
 
-  /// \param topic name of the topic, for the text
-  Health health(const std::string& topic, double now_sec) const {
+  /// \param topic name of the topic, for the text \param sources number of its publishers
+  Health health(const std::string& topic, double now_sec, int sources = 1) const {
     if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
       return {Health::kOk, "waiting for " + topic};
     if (!heard_ && params_.required)
@@ -41,8 +41,10 @@ class EngagementMonitor {
     if (!heard_) return {Health::kOk, "nothing on " + topic + ": assumed to follow setpoints"};
     if (isSilent(now_sec))
       return {Health::kError, topic + " has fallen silent: assumed to be out of control"};
-    return {Health::kOk, engaged_ ? "follows setpoints"
-                                  : "not armed, not in a mode that follows setpoints, or in a failsafe"};
+    const std::string said =
+        engaged_ ? "follows setpoints" : "not armed, not in a mode that follows setpoints, or in a failsafe";
+    if (sources > 1) return {Health::kWarn, "more than one source on " + topic + ": " + said};
+    return {Health::kOk, said};
   }
 
  private:

@@ -65,6 +65,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
                     MissionAction::Mission{[this] { return whyFlying(); },
                                            [this](const auto& policy) { return startMission(policy); },
                                            [this] { return abortMission("the goal was cancelled"); }});
+    master_.emplace();
   }
 }
 
@@ -125,6 +126,7 @@ void NavigatorNode::step() {
   const ros::Time now = ros::Time::now();
   restartIfClockJumpedBack(now.toSec());
   forgetSilentInputs();
+  abortIfForgotten();
   const bool works = diagnostics_.catchAll("navigator", [&] { last_ = decide(now.toSec()); });
   if (isLeftToOthers()) {
     last_.enabled = was_enabled_ = false;
@@ -232,6 +234,7 @@ void NavigatorNode::reportHealth() {
   diagnostics_.add("mission", [this] { return missionHealth(); });
   diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
   diagnostics_.add("camera", [this] { return cameraHealth(); });
+  diagnostics_.add("master", [this] { return masterHealth(); });
   diagnostics_.add("last_gate", [this] {
     const std::string& fault = last_gate_.fault();
     return fault.empty() ? Health{}
@@ -258,7 +261,8 @@ bool NavigatorNode::clockStandsStill(double now_sec) {
 }
 
 Health NavigatorNode::engagementHealth() const {
-  return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
+  return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec(),
+                            static_cast<int>(engaged_subscriber_.getNumPublishers()));
 }
 
 Health NavigatorNode::missionHealth() const {

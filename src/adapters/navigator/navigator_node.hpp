@@ -13,6 +13,7 @@
 #include "adapters/navigator/upstream_faults.hpp"
 #include "adapters/nodes.hpp"
 #include "adapters/runtime/lockstep.hpp"
+#include "adapters/runtime/master_watch.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 
 namespace window_ingress::adapters {
@@ -38,6 +39,7 @@ class NavigatorNode : public Node {
   void stepInStep(const Lockstep::Step& step);
   void forgetSilentInputs();
   void restartIfClockJumpedBack(double now_sec);
+  void abortIfForgotten();
   bool clockStandsStill(double now_sec);
   navigation::NavigatorOutput decide(double now_sec);
   void advertiseServices(ros::NodeHandle& pnh);
@@ -57,6 +59,7 @@ class NavigatorNode : public Node {
   Health missionHealth() const;
   Health vehicleHealth() const;
   Health cameraHealth() const;
+  Health masterHealth() const;
   const FrameNames& frames() const { return params_.navigator.vehicle.frames; }
 
   NavigatorNodeParams params_;
@@ -85,6 +88,7 @@ class NavigatorNode : public Node {
   std::vector<ros::ServiceServer> services_;
   std::optional<MissionAction> action_;  // not in lockstep, which has no client
   ros::SteadyTimer timer_;
+  std::optional<MasterWatch> master_;  // not in lockstep
 };
 
 }  // namespace window_ingress::adapters

@@ -1,4 +1,4 @@
-/// Requests to the navigator's node: services, and the action's goal and cancel.
+/// Requests to the navigator's node: services, the action's goal and cancel; and what if none can arrive.
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
@@ -8,6 +8,13 @@
 namespace window_ingress::adapters {
 
 using navigation::State;
+
+namespace {
+
+constexpr const char* kForgotten =
+    "unknown to the ROS master, which was restarted: take over by the switch, end all launches, start again";
+
+}  // namespace
 
 void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
   const auto add = [&](const std::string& name, const std::function<Reply()>& act) {
@@ -33,6 +40,7 @@ Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
   const double now_sec = lockstep_ ? step_sec_ : ros::Time::now().toSec();
   if (is_disabled_) return {false, "not started: disabled (~enable)"};
   if (!lockstep_) forgetSilentInputs();
+  if (master_ && master_->isForgotten()) return {false, std::string("not started: ") + kForgotten};
   if (!lockstep_ && clockStandsStill(now_sec)) return {false, "the clock stands still: nothing on /clock"};
   if (params_.start_at_once && last_.state == State::kIdle)
     return {false, "start_at_once: the mission starts by itself as soon as it can"};
@@ -51,6 +59,18 @@ Reply NavigatorNode::abortMission(const std::string& why) {
   const Reply reply = navigator_.abort(why);
   if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
   return reply;
+}
+
+// Another set of nodes may be started beside these, and ~abort no longer comes here. In the opening it flies
+// on.
+void NavigatorNode::abortIfForgotten() {
+  if (!master_ || !master_->isForgotten() || whyFlying().empty()) return;
+  if (navigator_.state() != navigation::State::kCommit)
+    navigator_.abort(std::string("aborted: ") + kForgotten);
+}
+
+Health NavigatorNode::masterHealth() const {
+  return master_ && master_->isForgotten() ? Health{Health::kError, kForgotten} : Health{};
 }
 
 std::string NavigatorNode::whyFlying() const {

@@ -12,8 +12,8 @@
 
 namespace window_ingress::adapters {
 
-/// Missing inputs of detector, pose node and autopilot, from /diagnostics: the navigator sees no images
-/// itself, but must say why it does not start.
+/// Missing inputs of detector and pose node, and what the autopilot lacks, from /diagnostics: the navigator
+/// sees neither itself, but must say why it does not start.
 class UpstreamFaults {
  public:
   UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
@@ -46,6 +46,8 @@ class UpstreamFaults {
   static constexpr const char* kInputs[] = {"window_detector: image", "window_detector: camera_info",
                                             "homography_pose: imu", "engaged_from_mavros: autopilot"};
 
+  static constexpr const char* kDoesNotFollow = "the autopilot does not follow setpoints";
+
   struct Fault {
     double heard_sec;  ///< on the steady clock
     std::string text;
@@ -59,7 +61,8 @@ class UpstreamFaults {
       for (const char* input : kInputs)
         if (status.name == own + input) {
           faults_.erase(input);
-          if (status.level >= diagnostic_msgs::DiagnosticStatus::ERROR)
+          if (status.level >= diagnostic_msgs::DiagnosticStatus::ERROR ||
+              status.message.find(kDoesNotFollow) != std::string::npos)
             faults_[input] = {steadyNowSec(), status.message.substr(0, kLongestText)};
         }
     }

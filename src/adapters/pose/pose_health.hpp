@@ -57,7 +57,10 @@ inline Health consistencyHealth(const estimation::Consistency& consistency) {
                 consistency.mean_nis, consistency.images, estimation::ConsistencyMonitor::kImages,
                 estimation::ConsistencyMonitor::kMaxMeanNis);
   if (consistency.contradicted)
-    return {Health::kWarn, text + "; most images contradict the estimated window"};
+    return {Health::kWarn,
+            formatted("%d of %d images contradict the estimated window and were not used; of the others: ",
+                      consistency.refused, consistency.refused + consistency.images) +
+                text};
   return {consistency.consistent ? Health::kOk : Health::kWarn, text};
 }
 

@@ -4,6 +4,7 @@
 
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/inputs/camera_source.hpp"
+#include "adapters/inputs/empty_twist.hpp"
 #include "adapters/nodes.hpp"
 #include "adapters/pose/pose_health.hpp"
 #include "adapters/pose/pose_publisher.hpp"
@@ -101,7 +102,7 @@ class PoseNode : public Node {
     if (!odom_.admits(message->header.stamp) || isFromBeforeReset(message->header)) return;
     auto vehicle = fromMsg(*message, vehicle_.frames);
     if (!vehicle) return odom_.refused(vehicle.reason);
-    odom_.accepted();
+    odom_.accepted(twist_.look(*vehicle.value));
     odom_.stamped(vehicle.value->stamp_sec);
     if (!lockstep_)
       vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
@@ -262,6 +263,7 @@ class PoseNode : public Node {
   std::optional<TopicInput> imu_;
   std::optional<Lockstep> lockstep_;
   estimation::SenderClock odom_clock_;
+  EmptyTwist twist_;
   ClockWatch clock_;
   CameraSource camera_;
   estimation::TargetEstimator estimator_;

@@ -69,6 +69,18 @@ std::string missingInput(State state, const Situation& situation) {
   return needs_target && !situation.target ? situation.target_fault : "";
 }
 
+std::string howItMovesBeside(const DisturbanceObserver& observer, const InputParams& params) {
+  const double turned_rad = observer.turnedRad();
+  if (std::abs(turned_rad) > params.max_turned_rad)
+    return formatted(
+        "the vehicle moves %.2f rad off the commanded direction: setpoints and odometry differ in axes",
+        turned_rad);
+  if (observer.isUpsideDown() && params.max_turned_rad < M_PI)
+    return "odometry sinks where the vehicle is told to climb, or climbs where told to sink: setpoints and "
+           "odometry differ in axes, here z, which must point up";
+  return "";
+}
+
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
                           const MissionState& mission) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";

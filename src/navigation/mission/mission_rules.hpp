@@ -7,6 +7,7 @@
 #include "navigation/behaviours/behaviour.hpp"
 #include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
+#include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
@@ -27,6 +28,9 @@ std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutPa
 
 /// The first missing input of this state; empty if none is missing.
 std::string missingInput(State state, const Situation& situation);
+
+/// How the vehicle moves beside its commands; empty if it follows them.
+std::string howItMovesBeside(const DisturbanceObserver& observer, const InputParams& params);
 
 /// Why a state other than COMMIT must not fly at this target: seen from behind, or not the window flown at
 /// before. Empty if there is no reason.

@@ -29,6 +29,7 @@ class DisturbanceObserver {
     gusts_m2ps_.setZero();
     watched_sec_ = 0.0;
     directions_ = Directions();
+    climbs_ = Climbs();
   }
   /// Restarts for another mission: forgets the measured response as well.
   void reset() {
@@ -46,6 +47,7 @@ class DisturbanceObserver {
     const double keep = 1.0 - share(dt_sec, kGustMemorySec);
     directions_.add({all_mps.x(), all_mps.y()}, {measured_mps.x(), measured_mps.y()}, dt_sec, keep);
     const Eigen::Vector3d model_mps(all_mps.x(), all_mps.y(), climbResponse().velocity().z());
+    climbs_.add(model_mps.z(), measured_mps.z(), dt_sec, keep);
     const Eigen::Vector3d surprise_mps = measured_mps - model_mps - disturbance_mps_;
     disturbance_mps_ += share(dt_sec, kWindSec) * clipped(surprise_mps, max_wind_mps_);
     disturbance_mps_ = clipped(disturbance_mps_, max_wind_mps_);
@@ -72,6 +74,9 @@ class DisturbanceObserver {
   /// Angle between commanded and flown direction [rad], left positive, over `kGustMemorySec` of horizontal
   /// motion; 0 while command or motion is too small. Constant offsets (wind, velocity bias) cause none.
   double turnedRad() const { return directions_.turnedRad(); }
+  /// Whether the vehicle sinks where it is told to climb, and the reverse, over `kGustMemorySec`: a
+  /// downdraught that carries it so far is no condition to fly in either.
+  bool isUpsideDown() const { return climbs_.areReversed(); }
   const ResponseEstimator& response() const { return response_; }
   /// Vertical response, which is slower in most vehicles; the response of all axes until it is measured.
   const ResponseEstimator& climbResponse() const { return climb_.isMeasured() ? climb_ : response_; }
@@ -111,6 +116,21 @@ class DisturbanceObserver {
     std::complex<double> said_m = 0.0, done_m = 0.0, both_m2ps = 0.0;
   };
 
+  /// The same for the vertical, with its sign alone, and with the offset: a steady climb has no other part.
+  struct Climbs {
+    static constexpr double kEnoughM2ps = 0.2;  ///< 2.3 s of 0.3 m/s, or 9 s of 0.15 m/s
+
+    void add(double said, double done, double dt_sec, double keep) {
+      said_m2ps = keep * said_m2ps + dt_sec * said * said;
+      both_m2ps = keep * both_m2ps + dt_sec * said * done;
+    }
+    bool areReversed() const {
+      return said_m2ps > kEnoughM2ps && both_m2ps < -Directions::kMinShareGone * said_m2ps;
+    }
+
+    double said_m2ps = 0.0, both_m2ps = 0.0;
+  };
+
   static Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
     const double norm = velocity_mps.norm();
     return norm > limit_mps ? Eigen::Vector3d(velocity_mps * (limit_mps / norm)) : velocity_mps;
@@ -125,6 +145,7 @@ class DisturbanceObserver {
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed, because noise moves no vehicle
   Directions directions_;
+  Climbs climbs_;
   Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
   double watched_sec_ = 0.0;  ///< fading
 };

@@ -224,6 +224,17 @@ TEST(NavigatorFlight, GivesUpWhereThereIsNoWindow) {
   EXPECT_NEAR(mission.end_offset.x(), -5.0, 1e-6);
 }
 
+TEST(NavigatorFlight, AnOdometryWithZDownIsNotClimbedAfter) {
+  PlantParams params;
+  KinematicPlant plant(params);
+  plant.hides_window = plant.z_points_down = true;
+  Navigator navigator{test::withoutGlass()};
+  const auto mission = test::fly(plant, navigator, 200.0);
+  EXPECT_EQ(mission.last.state, State::kAborted);
+  EXPECT_NE(mission.last.reason.find("differ in axes, here z"), std::string::npos) << mission.last.reason;
+  EXPECT_LT(mission.end_offset.z() - params.height_error_m, 1.0) << "climbed, in metres";
+}
+
 TEST(NavigatorFlight, PaperStepsPassTooButTakeLonger) {
   PlantParams plant;
   plant.off_axis_rad = 0.5;

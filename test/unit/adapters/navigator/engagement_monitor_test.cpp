@@ -44,6 +44,14 @@ TEST(EngagementMonitor, OnceHeardOnlyARecentYesIsAYes) {
   EXPECT_FALSE(engagement.holds(std::numeric_limits<double>::quiet_NaN()));
 }
 
+TEST(EngagementMonitor, WarnsOfASecondSource) {
+  EngagementMonitor engagement(EngagementParams(), 0.0);
+  engagement.hear(true, 1.0);
+  EXPECT_EQ(engagement.health("/engaged", 1.0, 1).level, Health::kOk);
+  EXPECT_EQ(engagement.health("/engaged", 1.0, 2).level, Health::kWarn);
+  EXPECT_EQ(engagement.health("/engaged", 9.0, 2).level, Health::kError) << "what is worse is said";
+}
+
 TEST(EngagementMonitor, NeverHoldsLongerThanTheLastYes) {
   EngagementParams params;
   EngagementMonitor engagement(params);

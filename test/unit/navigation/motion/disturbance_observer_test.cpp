@@ -181,6 +181,47 @@ TEST(DisturbanceObserver, AVehicleThatStandsAgainstTheWindGoesBesideNothing) {
   }
 }
 
+// The slowest climbs that the navigator commands; the height by which it may go wrong is small.
+TEST(DisturbanceObserver, TellsADownwardZAxisWithinAMetre) {
+  const NavigatorParams params;
+  constexpr double kStep = 0.03, kDowndraughtMps = 0.25, kMostM = 1.5;
+  const auto climbedM = [&](double told_mps, double sign, double wind_mps) {
+    DisturbanceObserver observer(params.vehicle, params.approach);
+    double velocity_mps = 0.0, climbed_m = 0.0;
+    for (double t = 0.0; t < 30.0 && !observer.isUpsideDown(); t += kStep) {
+      velocity_mps += kStep / params.vehicle.response_sec * (told_mps + wind_mps - velocity_mps);
+      climbed_m += kStep * velocity_mps;
+      observer.update({0.0, 0.0, sign * velocity_mps}, {0.0, 0.0, told_mps}, kStep);
+    }
+    return observer.isUpsideDown() ? std::abs(climbed_m) : std::numeric_limits<double>::infinity();
+  };
+  for (const double told_mps :
+       {params.search.climb_speed_mps, -params.search.climb_speed_mps, params.align.vertical_speed_mps}) {
+    EXPECT_LT(climbedM(told_mps, -1.0, 0.0), kMostM) << told_mps;
+    EXPECT_TRUE(std::isinf(climbedM(told_mps, 1.0, 0.0))) << told_mps;
+    EXPECT_TRUE(std::isinf(climbedM(told_mps, 1.0, std::copysign(kDowndraughtMps, -told_mps)))) << told_mps;
+  }
+}
+
+// A height that is kept against gusts is told up while the vehicle still goes down.
+TEST(DisturbanceObserver, GustsFromAboveTurnNoAxis) {
+  const NavigatorParams params;
+  constexpr double kStep = 0.03;
+  for (const double gust_mps : {0.3, 0.6})
+    for (const double gust_hz : {0.05, 0.1, 0.2, 0.4, 0.8}) {
+      DisturbanceObserver observer(params.vehicle, params.approach);
+      double velocity_mps = 0.0, height_m = 0.0;
+      for (double t = 0.0; t < 60.0; t += kStep) {
+        const double told_mps = std::clamp(-1.2 * height_m, -0.3, 0.3);
+        velocity_mps += kStep / params.vehicle.response_sec * (told_mps - velocity_mps);
+        const double all_mps = velocity_mps + gust_mps * std::cos(2.0 * M_PI * gust_hz * t);
+        height_m += kStep * all_mps;
+        observer.update({0.0, 0.0, all_mps}, {0.0, 0.0, told_mps}, kStep);
+        ASSERT_FALSE(observer.isUpsideDown()) << gust_mps << " m/s at " << gust_hz << " Hz, after " << t;
+      }
+    }
+}
+
 TEST(DisturbanceObserver, FeelsGustsWhileItIsToldToSteerAgainstThem) {
   constexpr double kStep = 0.03, kGustMps = 0.3;
   const NavigatorParams params;
