@@ -10,7 +10,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "adapters/nodes.hpp"
-#include "adapters/runtime/console_output.hpp"
+#include "adapters/runtime/console_decoupling.hpp"
 
 namespace window_ingress::adapters {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "adapters/runtime/console_output.hpp"
+#include "adapters/runtime/console_decoupling.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

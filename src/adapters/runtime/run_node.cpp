@@ -8,7 +8,7 @@
 #include <exception>
 
 #include "adapters/nodes.hpp"
-#include "adapters/runtime/console_output.hpp"
+#include "adapters/runtime/console_decoupling.hpp"
 
 namespace window_ingress::adapters {
 namespace {

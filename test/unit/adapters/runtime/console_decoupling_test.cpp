@@ -1,5 +1,5 @@
 // A write never waits for the reader. Text written before the reader stopped still arrives complete.
-#include "adapters/runtime/console_output.hpp"
+#include "adapters/runtime/console_decoupling.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace window_ingress::adapters::console_output_test {
+namespace window_ingress::adapters::console_decoupling_test {
 
 constexpr int kMany = 20000;
 const std::string kLine(99, 'x');
@@ -18,7 +18,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 /// A pipe that is read by the test, or by nobody.
-class ConsoleOutput : public testing::Test {
+class ConsoleDecoupling : public testing::Test {
  protected:
   void SetUp() override {
     int ends[2];
@@ -52,12 +52,12 @@ class ConsoleOutput : public testing::Test {
   int reader_ = -1, output_ = -1;
 };
 
-TEST_F(ConsoleOutput, PassesOnWhatIsWrittenAndEnds) {
+TEST_F(ConsoleDecoupling, PassesOnWhatIsWrittenAndEnds) {
   ASSERT_EQ(writeLines(2), 2);
   EXPECT_EQ(readToTheEnd(), "0" + kLine + "\n1" + kLine + "\n");
 }
 
-TEST_F(ConsoleOutput, NeverWaitsForOneThatDoesNotRead) {
+TEST_F(ConsoleDecoupling, NeverWaitsForOneThatDoesNotRead) {
   const auto begin = std::chrono::steady_clock::now();
   const int written = writeLines(kMany);
   EXPECT_LT(secondsSince(begin), 2.0);
@@ -68,10 +68,10 @@ TEST_F(ConsoleOutput, NeverWaitsForOneThatDoesNotRead) {
   EXPECT_EQ(text.back(), '\n') << "lines are lost whole";
 }
 
-TEST_F(ConsoleOutput, SurvivesThatNobodyIsThere) {
+TEST_F(ConsoleDecoupling, SurvivesThatNobodyIsThere) {
   close(reader_);
   reader_ = -1;
   EXPECT_GT(writeLines(100), 0);
 }
 
-}  // namespace window_ingress::adapters::console_output_test
+}  // namespace window_ingress::adapters::console_decoupling_test

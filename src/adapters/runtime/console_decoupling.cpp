@@ -1,4 +1,4 @@
-#include "adapters/runtime/console_output.hpp"
+#include "adapters/runtime/console_decoupling.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>
