@@ -91,7 +91,7 @@ inline std::string wholePathOf(const std::string& file) {
 
 /// The same for an argument; `nominal` is the file of that name beside the default one.
 inline std::string wholePathOf(const std::string& file, const std::string& standard) {
-  const auto shipped = std::filesystem::path(standard).parent_path() / file;
+  const auto shipped = std::filesystem::absolute(std::filesystem::path(standard).parent_path() / file);
   for (const char* end : {"", ".yaml"})
     if (std::filesystem::exists(shipped.string() + end))
       return "give its whole path, as " + shipped.string() + end;

@@ -76,7 +76,8 @@ def test_the_argument_that_was_meant_is_named(file):
     ("mavros", "modes:=OFFBORD", "give one of [OFFBOARD], [GUIDED]"), ("external", "start_at:=here", "give one of vehicle, scenario"),
     ("replay", "bag:=flight.bag", "give its whole path, as /"), ("replay", "rate:=half", "give a number"),
     ("replay", "stay:=ture", "give one of true, false"), ("px4", "fly:=flase", "give one of true, false"),
-    ("rehearse", "camera:=flase", "give one of true, false"), ("view", "software:=1", "give one of true, false")])
+    ("rehearse", "camera:=flase", "give one of true, false"), ("rehearse", "video:=README.md", "give its whole path, as /"),
+    ("view", "software:=1", "give one of true, false")])
 def test_a_value_that_cannot_be_ends_the_launch_with_those_that_can(name, argument, said):
     given = [text for text in GIVEN.get(name, []) if text.split(":=")[0] != argument.split(":=")[0]]
     assert f"{name}.launch: {argument}: {said}" in refusal(ROOT / f"launch/{name}.launch", *given, argument)
