@@ -12,6 +12,7 @@ namespace window_ingress::estimation::clock_check_test {
 /// A vehicle turns towards a window 4 m ahead, stands, and turns a little further; 20 images a second.
 struct Turning {
   double late_sec = 0.0, sideways_mps = 0.0, believed_off_m = 0.0;
+  bool learns = false;  // the window's place, from what is seen
   std::mt19937 random{5};
   ClockCheck check;
 
@@ -26,7 +27,7 @@ struct Turning {
       const double true_azimuth = std::atan2(-position.y(), 4.0);
       const double turned_late = 0.5 * late_sec * (rate(t) + rate(t - late_sec));
       check.see({t, position, {0.0, sideways_mps}, true_azimuth + turned_late + noise(random), rate(t)},
-                {4.0, believed_off_m});
+                {4.0, believed_off_m + (learns ? 4.0 * std::tan(turned_late) : 0.0)});
     }
   }
 };
@@ -52,6 +53,32 @@ TEST(ClockCheck, IsNotLedAstrayByTheWayFlownOrAPlaceSlightlyWrong) {
       ASSERT_TRUE(turning.check.offset());
       EXPECT_NEAR(turning.check.offset()->late_sec, 0.0, 0.045);
     }
+}
+
+// The camera hardly turns relative to the window, while the position slides by 0.1 m/s.
+TEST(ClockCheck, DoesNotTakeAFlightAsideForLateStamps) {
+  ClockCheck check;
+  for (double t = 0.0; t < 8.0; t += 0.05) {
+    const double speed_mps = std::sin(0.8 * t), y_m = (1.0 - std::cos(0.8 * t)) / 0.8;
+    const double facing_radps = -4.0 * speed_mps / (16.0 + y_m * y_m);
+    const double aside_radps = 0.1 * std::sin(3.0 * t);
+    check.see({t, {0.0, y_m + 0.1 * t}, {0.0, speed_mps}, std::atan2(-y_m, 4.0), facing_radps + aside_radps},
+              {4.0, 0.0});
+  }
+  ASSERT_TRUE(check.offset());
+  EXPECT_FALSE(check.offset()->isTooLarge()) << check.offset()->late_sec;
+  EXPECT_NEAR(check.offset()->late_sec, 0.0, 0.04);
+}
+
+// While a turn goes on, the estimate of the window follows what late stamps show of it.
+TEST(ClockCheck, FindsLateStampsWhileTheWindowIsLearnt) {
+  Turning turning;
+  turning.late_sec = 0.1;
+  turning.learns = true;
+  turning.fly(6.0);
+  ASSERT_TRUE(turning.check.offset());
+  EXPECT_NEAR(turning.check.offset()->late_sec, 0.1, 0.03);
+  EXPECT_TRUE(turning.check.offset()->isTooLarge());
 }
 
 TEST(ClockCheck, KnowsNothingBeforeATurnBeginsOrEnds) {

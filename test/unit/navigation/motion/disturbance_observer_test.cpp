@@ -182,7 +182,7 @@ TEST(DisturbanceObserver, AVehicleThatStandsAgainstTheWindGoesBesideNothing) {
 }
 
 // The slowest climbs that the navigator commands; the height by which it may go wrong is small.
-TEST(DisturbanceObserver, TellsADownwardZAxisWithinAMetre) {
+TEST(DisturbanceObserver, TellsADownwardZAxisWithinOneAndAHalfMetres) {
   const NavigatorParams params;
   constexpr double kStep = 0.03, kDowndraughtMps = 0.25, kMostM = 1.5;
   const auto climbedM = [&](double told_mps, double sign, double wind_mps) {
