@@ -9,7 +9,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
-from rosgraph_msgs.msg import Clock
+from rosgraph_msgs.msg import Clock, Log
 from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowPose
 
@@ -54,7 +54,7 @@ class FrozenClockTest(unittest.TestCase):
     def test_absent_then_frozen_then_jumping_back(self):
         setpoints = support.Listener("cmd_vel", TwistStamped)
         guarded = support.Listener("guarded", TwistStamped)
-        states = support.Listener("state", IngressState)
+        states, log = support.Listener("state", IngressState), support.Listener("/rosout", Log)
         diagnostics = support.Diagnostics()
         rospy.wait_for_service("ingress_navigator/start")
         start = rospy.ServiceProxy("ingress_navigator/start", Trigger)
@@ -66,6 +66,11 @@ class FrozenClockTest(unittest.TestCase):
 
         guarded.wait(what="the guard's stream without a clock")
         self.expect_zeros_of_the_guard(guarded, time.monotonic())
+
+        early = support.Stream("odom", Odometry, lambda stamp: support.odometry(rospy.Time(1000)), 50.0)
+        diagnostics.wait("ingress_navigator: odom", "refused", "the clock has not begun")
+        early.stop()
+        self.assertEqual([m.msg for m in log.since(0.0) if "odom refused" in m.msg], [], "counted, but no complaint of its own")
 
         clock = SimulatedClock(1000.0)
         support.Stream("odom", Odometry, support.odometry, 50.0)

@@ -41,6 +41,8 @@ void TopicInput::stamped(double stamp_sec) { age_sec_ = ros::Time::now().toSec()
 void TopicInput::refused(const std::string& why) {
   ++refusals_;
   refusal_ = why;
+  // Messages before the first on /clock are no fault yet: the diagnostics' "clock" says when they become one.
+  if (ros::Time::isSimTime() && ros::Time::now().isZero()) return;
   const double now_sec = steadyNowSec();
   if (said_sec_ > 0.0 && now_sec - said_sec_ < kQuietSec) return;
   said_sec_ = now_sec;

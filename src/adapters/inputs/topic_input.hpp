@@ -38,7 +38,8 @@ class TopicInput {
   void accepted(const std::string& warning = "");
   /// Notes the stamp of an accepted message, to report its age.
   void stamped(double stamp_sec);
-  void refused(const std::string& why);  ///< also prints on the console, at most every 5 s
+  /// Also prints on the console, at most every 5 s, and not before the clock has begun.
+  void refused(const std::string& why);
 
   std::string topic() const { return topic_ ? topic_() : name_; }
   bool isConnected() const { return publishers_ && publishers_() > 0; }
