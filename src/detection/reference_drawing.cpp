@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 
 namespace window_ingress::detection {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 
 namespace window_ingress::detection {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {

@@ -6,7 +6,7 @@
 #include "detection/alignment/ring_matcher.hpp"
 #include "detection/reference/reference_borders.hpp"
 #include "detection/reference/reference_shape.hpp"
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 
 namespace window_ingress::detection {

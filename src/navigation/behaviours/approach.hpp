@@ -7,6 +7,8 @@
 
 #include "navigation/behaviours/step_pacer.hpp"
 #include "navigation/mission/opening_policy.hpp"
+#include "navigation/mission/window_choice.hpp"
+#include "navigation/motion/axis_guidance.hpp"
 
 namespace window_ingress::navigation {
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "navigation/behaviours/behaviour.hpp"
+#include "navigation/motion/axis_guidance.hpp"
 
 namespace window_ingress::navigation {
 

@@ -6,6 +6,7 @@
 
 #include "navigation/behaviours/behaviour.hpp"
 #include "navigation/mission/opening_policy.hpp"
+#include "navigation/motion/axis_guidance.hpp"
 #include "navigation/motion/moving_target.hpp"
 #include "navigation/motion/stopping.hpp"
 #include "window_ingress/text/text.hpp"

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/window_choice.hpp"
+#include "navigation/motion/axis_guidance.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {

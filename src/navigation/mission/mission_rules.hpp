@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "navigation/behaviours/behaviour.hpp"
 #include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
+#include "navigation/mission/mission_state.hpp"
 #include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/mission_state.hpp"
 
 namespace window_ingress::navigation {
 

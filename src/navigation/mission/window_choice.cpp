@@ -1,6 +1,9 @@
 #include "navigation/mission/window_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "navigation/mission/opening_policy.hpp"
 
 namespace window_ingress::navigation {
 
@@ -10,6 +13,34 @@ bool wasLeftForGood(const TargetEstimate& target, const MissionState& mission) {
   return std::any_of(mission.left_odom_m.begin(), mission.left_odom_m.end(),
                      [&](const Eigen::Vector3d& left) {
                        return (left - target.T_odom_window.translation()).norm() < kSamePlaceM;
+                     });
+}
+
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission) {
+  const auto& target = *situation.target;
+  if (!target.other_window) {
+    const std::string closed = whyClosed(target);
+    if (closed.empty()) return std::nullopt;
+    mission.giveUpWindow(target);
+    return Decision{{}, true, Event::kOtherWindow, closed};
+  }
+  const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
+  mission.others_odom_m.push_back(position +
+                                  *target.other_window * (target.T_odom_window.translation() - position));
+  ++mission.others;
+  if (target.window_id != 0) mission.given_up.push_back(target.window_id);
+  mission.leaveWindow();
+  return Decision{{}, true, Event::kOtherWindow, target.approach_forbidden};
+}
+
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission) {
+  if (wasLeftForGood(target, mission)) return true;
+  constexpr double kSameDirectionRad = 0.12;
+  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
+  const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();
+  return std::any_of(mission.others_odom_m.begin(), mission.others_odom_m.end(),
+                     [&](const Eigen::Vector3d& other) {
+                       return sight.dot((other - position).normalized()) > std::cos(kSameDirectionRad);
                      });
 }
 

@@ -10,6 +10,13 @@ namespace window_ingress::navigation {
 /// The target is at the place of a window that was left for good.
 bool wasLeftForGood(const TargetEstimate& target, const MissionState& mission);
 
+/// Leaves a target that turned out to be another window or closed, and remembers its place.
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission);
+
+/// The target was left for good, or lies in the direction of a window that is known to be another one. Only
+/// the direction counts, because the distance was computed with a size that window does not have.
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission);
+
 /// Why the mission leaves the window flown at: the operator or the facade has chosen another target. Empty if
 /// there is no reason, and always in COMMIT.
 std::string whySentElsewhere(const Situation& situation, State state, const MissionState& mission);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/mission_state.hpp"
 
 namespace window_ingress::navigation {
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 #include "drawn_window.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 

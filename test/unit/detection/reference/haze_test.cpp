@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 
 namespace window_ingress::detection::haze_test {
 

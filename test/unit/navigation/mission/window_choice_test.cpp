@@ -2,10 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "navigation/behaviours/align.hpp"
+#include "navigation/behaviours/search.hpp"
 #include "navigation_samples.hpp"
+#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::navigation::window_choice_test {
+
+const NavigatorParams kDefaults = test::withoutGlass();
 
 NavigatorInput inputFor(std::uint32_t window_id, double now_sec, double aside_m = 0.0) {
   NavigatorInput input = test::inputAt({-4.0, 0.0, 1.5}, now_sec);
@@ -95,6 +102,50 @@ TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
   decision.event = Event::kReacquired;
   turnToNextWindow(State::kBackOff, params, mission, decision);
   EXPECT_EQ(decision.event, Event::kReacquired);
+}
+
+TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
+  MissionState mission;
+  Align align{kDefaults, 0.0};
+  auto situation = test::situationAt({-5.0, 0.0, 1.5}, 0.0, true);
+  situation.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 2.0, 1.5);
+  mission.trusted = situation.target;
+  mission.window_odom_m = situation.target->T_odom_window.translation();
+  EXPECT_NE(align.step(situation, mission).event, Event::kOtherWindow);
+  situation.target->other_window = 0.5;
+  situation.target->approach_forbidden = "another window: about 0.5 times as large";
+  const Decision decision = align.step(situation, mission);
+  EXPECT_EQ(decision.event, Event::kOtherWindow);
+  EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
+  EXPECT_NE(decision.reason.find("0.5 times"), std::string::npos);
+  ASSERT_EQ(mission.others_odom_m.size(), 1u);
+  EXPECT_TRUE(mission.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
+  EXPECT_FALSE(mission.trusted || mission.window_odom_m) << "nothing may be flown by it any more";
+
+  Search search{kDefaults, false};
+  for (int i = 0; i < 10; ++i)
+    EXPECT_FALSE(search.step(test::situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), mission).event);
+  auto again = test::situationAt({-5.0, -1.0, 1.5}, 1.0, true);
+  again.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 3.1, 1.5);  // the same one, from elsewhere
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.step(again, mission).event);
+  auto right = test::situationAt({-5.0, -1.0, 1.5}, 2.0, true);
+  Decision found;
+  for (int i = 0; i < 3; ++i) found = search.step(right, mission);
+  EXPECT_EQ(found.event, Event::kWindowFound);
+}
+
+TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
+  MissionState mission;
+  mission.others_odom_m.push_back({0.0, 0.0, 1.5});
+  Search search{kDefaults, false};
+  double yaw = 0.0;
+  for (int i = 0; i < 10; ++i) search.step(test::situationAt({-4, 0, 1.5}, 0.0, true, yaw), mission);
+  EXPECT_EQ(mission.others_odom_m.size(), 1u);
+  for (double turned = 0.0; turned < 2.0 * M_PI + 0.1; turned += 0.05) {
+    yaw = geometry::wrapAngle(yaw + 0.05);
+    search.step(test::situationAt({-4, 0, 1.5}, 0.0, false, yaw), mission);
+  }
+  EXPECT_TRUE(mission.others_odom_m.empty());
 }
 
 }  // namespace window_ingress::navigation::window_choice_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "navigation/behaviours/behaviour.hpp"
+#include "navigation/motion/axis_guidance.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"

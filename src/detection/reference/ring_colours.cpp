@@ -1,4 +1,4 @@
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

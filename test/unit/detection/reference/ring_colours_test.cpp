@@ -1,4 +1,4 @@
-#include "detection/reference/ring_histogram.hpp"
+#include "detection/reference/ring_colours.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "drawn_window.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 
-namespace window_ingress::detection::ring_histogram_test {
+namespace window_ingress::detection::ring_colours_test {
 
 const auto kOpening = test::rectangle(100, 80, 220, 170);
 const cv::Scalar kOrange(50, 140, 215), kWall(150, 160, 170);
@@ -157,4 +157,4 @@ TEST(RingHistogram, StaysWithinTheImage) {
   }
 }
 
-}  // namespace window_ingress::detection::ring_histogram_test
+}  // namespace window_ingress::detection::ring_colours_test
