@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/estimation/target_estimate.hpp"
+#include "window_ingress/navigation/navigation_types.hpp"
 
 namespace window_ingress::navigation {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "navigation/behaviours/behaviour.hpp"
 #include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
