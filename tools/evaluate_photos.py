@@ -137,7 +137,7 @@ def sheet(photographs, records, path):
 
     annotated, cells = rules.targets_of(photographs.annotations), []
     for r in rules.wrong(records):
-        image = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
+        image = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR)
         scale = min(CELL[0] / image.shape[1], CELL[1] / image.shape[0])
         small = cv2.resize(image, None, fx=scale, fy=scale,
                            interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)

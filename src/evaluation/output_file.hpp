@@ -56,11 +56,12 @@ inline void writeText(const std::filesystem::path& file, const std::string& text
   output.finish();
 }
 
-/// An image with unchanged pixels; empty if the file cannot be read as an image.
+/// An image as viewers show it: turned by the orientation that its camera has noted; empty if the file cannot
+/// be read as an image.
 inline cv::Mat imageOrNone(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};  // OpenCV itself would print a warning about a missing file
   try {
-    return cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    return cv::imread(file.string(), cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
     return {};
   }

@@ -109,6 +109,8 @@ tools::OptionList describe(Options& o) {
   return add;
 }
 
+constexpr double kNearlyBlackGrey = 16.0;  // brightest value: 12 bits, read as the lower of 16
+
 bool looksLikeImage(const fs::path& path) {
   static const std::set<std::string> kKnown{".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"};
   return kKnown.count(boost::to_lower_copy(path.extension().string())) > 0;
@@ -139,10 +141,14 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
       images.push_back(input);
       continue;
     }
-    std::vector<std::string> found;
+    std::vector<std::string> found, others;
     for (const auto& entry : fs::directory_iterator(input))
-      if (entry.is_regular_file() && looksLikeImage(entry.path())) found.push_back(entry.path().string());
+      if (entry.is_regular_file())
+        (looksLikeImage(entry.path()) ? found : others).push_back(entry.path().string());
     if (found.empty()) throw InputError(input + ": no image in this folder; folders in it are not searched");
+    if (!others.empty())
+      std::cerr << "detect_images: " << input << ": left out " << others.size()
+                << " whose names do not end as an image's, e.g. " << others.front() << "\n";
     std::sort(found.begin(), found.end());
     images.insert(images.end(), found.begin(), found.end());
   }
@@ -257,6 +263,9 @@ int run(const Options& o) {
                 << (is_cut ? ": its end is missing" : ": cannot be read as an image") << "; skipped"
                 << std::endl;
     } else {
+      if (cv::norm(image, cv::NORM_INF) < kNearlyBlackGrey)
+        std::cerr << "detect_images: warning: " << file
+                  << " is nearly black; 12 bits in a 16-bit file? then scale it\n";
       row = process(image, job, finder);
       found += row.window.has_value();
       not_compared += job.reference && row.window && !row.window->has_appearance;

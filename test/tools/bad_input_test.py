@@ -11,25 +11,9 @@ import numpy
 import pytest
 import rosbag
 
-from repository import NOMINAL, ROOT, run
+from repository import NOMINAL, ROOT, assert_refused, run
 
 TOOLS = ["detect_images", "draw_stages", "fly", "replay_bag", "survey_detector", "survey_tracker"]
-
-
-def assert_refused(result, code, *words):
-    """Checks the exit code, and that one line says what is wrong and where."""
-    lines = [line for line in result.stderr.splitlines() if line.strip()]
-    assert result.returncode == code, result.stderr
-    assert len(lines) == 1, result.stderr
-    for word in words:
-        assert str(word) in lines[0], result.stderr
-
-
-@pytest.fixture
-def image(tmp_path):
-    file = tmp_path / "plain.png"
-    cv2.imwrite(str(file), numpy.full((120, 160, 3), 128, numpy.uint8))
-    return file
 
 
 @pytest.mark.parametrize("tool", TOOLS)
@@ -88,25 +72,6 @@ def test_a_value_without_its_option_is_wrong_usage():
     assert_refused(run("fly", NOMINAL), 2, "give it after its option")
 
 
-def test_missing_image_is_named(tmp_path):
-    missing = tmp_path / "missing.png"
-    assert_refused(run("detect_images", "--output", tmp_path / "out.csv", missing), 2, missing)
-
-
-@pytest.mark.parametrize("ending, share", [("png", 0.2), ("jpg", 0.8)])
-def test_unreadable_image_is_named_and_the_others_are_done(tmp_path, image, ending, share):
-    broken = tmp_path / f"broken.{ending}"
-    whole = cv2.imencode(f".{ending}", cv2.imread(str(image)))[1].tobytes()
-    broken.write_bytes(whole[:int(share * len(whole))])
-    output = tmp_path / "out.csv"
-    result = run("detect_images", "--output", output, broken, image)
-    assert result.returncode == 1 and "Premature" not in result.stderr
-    assert sum(str(broken) in line for line in result.stderr.splitlines()) == 1
-    rows = output.read_text().splitlines()
-    assert len(rows) == 3
-    assert rows[2].startswith(str(image)) or rows[2].startswith(image.name)
-
-
 def test_output_that_cannot_be_written_to_is_a_failed_job(image):
     if not pathlib.Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
@@ -142,43 +107,6 @@ def test_folder_of_the_output_is_made(tmp_path, image):
     assert len(output.read_text().splitlines()) == 2
     sheet = tmp_path / "newer" / "sheet.jpg"
     assert run("draw_stages", "--output", sheet, image).returncode == 0 and sheet.is_file()
-
-
-def test_camera_without_calibration_is_refused(tmp_path, image):
-    camera = tmp_path / "camera.yaml"
-    zeros = "[" + ", ".join(["0"] * 9) + "]"
-    camera.write_text(
-        "image_width: 160\nimage_height: 120\ncamera_name: test\n"
-        f"camera_matrix: {{rows: 3, cols: 3, data: {zeros}}}\n"
-        "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
-        f"rectification_matrix: {{rows: 3, cols: 3, data: {zeros}}}\n"
-        "projection_matrix: {rows: 3, cols: 4, data: [" + ", ".join(["0"] * 12) + "]}\n")
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", image)
-    assert_refused(result, 2, camera, "uncalibrated")
-
-
-def test_missing_camera_file_is_named(tmp_path, image):
-    camera = tmp_path / "camera.yaml"
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", image)
-    assert_refused(result, 2, camera)
-
-
-def test_size_without_camera_is_refused_as_it_brings_no_pose(tmp_path, image):
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--window-size", "1,1", image)
-    assert_refused(result, 2, "--window-size needs --camera")
-
-
-def test_grey_image_beside_a_coloured_reference_is_said_to_be_found_by_geometry_alone(tmp_path):
-    picture = numpy.full((240, 320, 3), 160, numpy.uint8)
-    cv2.rectangle(picture, (80, 60), (240, 180), (0, 120, 240), 12)
-    cv2.rectangle(picture, (86, 66), (234, 174), (30, 30, 30), -1)
-    coloured, grey = tmp_path / "coloured.png", tmp_path / "grey.png"
-    cv2.imwrite(str(coloured), picture)
-    cv2.imwrite(str(grey), cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY))
-    arguments = ("--output", tmp_path / "out.csv", "--reference", coloured,
-                 "--reference-corners", "86,66,234,66,234,174,86,174")
-    assert "geometry alone" not in run("detect_images", *arguments, coloured).stderr
-    assert "warning: 1 found by geometry alone" in run("detect_images", *arguments, grey).stderr
 
 
 def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, image):
@@ -278,33 +206,6 @@ def test_a_reference_without_corners_is_said_to_be_guessed(tmp_path, image):
     for options, code in ((["check_overlay"], 0), (["detect_images", "--output", tmp_path / "out.csv", image], 0)):
         said = run(*options, "--reference", tmp_path / "window.png")
         assert said.returncode == code and "warning: the opening in the reference image is guessed" in said.stderr, said.stderr
-
-
-def test_overlays_are_not_drawn_among_the_photographs(tmp_path, image):
-    done = run("detect_images", "--output", tmp_path / "found.csv", "--overlay", image.parent, image.parent)
-    assert_refused(done, 2, "--overlay", "the input images are there")
-    assert not (tmp_path / "plain.png.png").exists()
-
-
-def test_one_overlay_does_not_replace_another(tmp_path, image):
-    twin = tmp_path / "other" / image.name
-    twin.parent.mkdir()
-    shutil.copy(image, twin)
-    command = "detect_images", "--output", tmp_path / "found.csv", "--overlay", tmp_path / "overlays"
-    assert_refused(run(*command, image, twin), 2, str(image), str(twin), "run each folder by itself")
-    assert run(*command, image, image.parent).returncode == 0, "one photograph, named twice"
-
-
-def test_a_table_replaces_nothing_but_a_table(tmp_path, image):
-    drone = tmp_path / "drone.yaml"
-    drone.write_text("vehicle: {half_width_m: 0.3}\n")
-    for option in ("--output", "--candidates"):
-        tables = {"--output": tmp_path / "found.csv", option: drone}
-        done = run("detect_images", *[word for pair in tables.items() for word in pair], image)
-        assert_refused(done, 2, option, "end its name with .csv")
-    assert drone.read_text().startswith("vehicle")
-    table = tmp_path / "found.csv"
-    assert_refused(run("detect_images", "--output", table, "--candidates", table, image), 2, "is also --output")
 
 
 def test_a_good_parameter_file_is_named_on_a_line(tmp_path):

@@ -4,6 +4,8 @@ import shutil
 import subprocess
 import sys
 
+import cv2
+import numpy
 import pytest
 from repository import ROOT
 
@@ -23,3 +25,11 @@ def fixture_screen():
         yield f":{number.readline().strip()}"  # said when it is ready
     server.terminate()
     server.wait(timeout=20)
+
+
+@pytest.fixture(name="image")
+def fixture_image(tmp_path):
+    """A small picture without a window."""
+    file = tmp_path / "plain.png"
+    cv2.imwrite(str(file), numpy.full((120, 160, 3), 128, numpy.uint8))
+    return file

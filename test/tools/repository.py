@@ -18,6 +18,15 @@ def run(tool, *arguments, **options):
     return call(ROOT / "scripts/run", tool, *arguments, **options)
 
 
+def assert_refused(result, code, *words):
+    """Checks the exit code, and that one line says what is wrong and where."""
+    lines = [line for line in result.stderr.splitlines() if line.strip()]
+    assert result.returncode == code, result.stderr
+    assert len(lines) == 1, result.stderr
+    for word in words:
+        assert str(word) in lines[0], result.stderr
+
+
 def load(program):
     """Loads a program as a module; its name may have no suffix."""
     loader = importlib.machinery.SourceFileLoader(program.rpartition("/")[2].partition(".")[0], str(ROOT / program))

@@ -5,6 +5,7 @@
 
 #include <csetjmp>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -14,6 +15,7 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr int kFileQuality = 95;
+constexpr int kExifMarker = JPEG_APP0 + 1;
 
 // On an error, libjpeg must leave its call by longjmp; messages are suppressed.
 struct JpegErrors {
@@ -29,12 +31,32 @@ void useQuietly(jpeg_error_mgr*& place, JpegErrors& errors) {
   errors.manager.emit_message = [](j_common_ptr, int) {};
 }
 
+/// How the camera was held, 1 to 8 (EXIF 2.3, tag 0x0112); 1, upright, if the file does not say.
+unsigned orientationOf(const jpeg_decompress_struct& jpeg) {
+  for (const auto* marker = jpeg.marker_list; marker; marker = marker->next) {
+    if (marker->data_length < 14 || std::memcmp(marker->data, "Exif\0\0", 6) != 0) continue;
+    const std::uint8_t* const tiff = marker->data + 6;
+    const auto number = [&](std::size_t at, unsigned bytes) {
+      unsigned sum = 0;
+      for (unsigned i = 0; i < bytes && at + bytes <= marker->data_length - 6; ++i)
+        sum = sum << 8 | tiff[tiff[0] == 'I' ? at + bytes - 1 - i : at + i];
+      return sum;
+    };
+    const std::size_t entries = number(4, 4);
+    for (std::size_t i = 0, at = entries + 2; i < number(entries, 2); ++i, at += 12)
+      if (number(at, 2) == 0x0112) return number(at + 8, 2);
+  }
+  return 1;
+}
+
 // Nothing with a destructor may live between setjmp and a longjmp back to it.
-bool readJpegInto(cv::Mat& image, jpeg_decompress_struct& jpeg, JpegErrors& errors,
+bool readJpegInto(cv::Mat& image, unsigned& orientation, jpeg_decompress_struct& jpeg, JpegErrors& errors,
                   const std::vector<std::uint8_t>& bytes) {
   if (setjmp(errors.failed) != 0) return false;
   jpeg_mem_src(&jpeg, bytes.data(), bytes.size());
+  jpeg_save_markers(&jpeg, kExifMarker, 0xffff);
   jpeg_read_header(&jpeg, TRUE);
+  orientation = orientationOf(jpeg);
   const bool grey = jpeg.jpeg_color_space == JCS_GRAYSCALE;
   jpeg.out_color_space = grey ? JCS_GRAYSCALE : JCS_EXT_BGR;
   jpeg_start_decompress(&jpeg);
@@ -67,7 +89,17 @@ bool writeJpegInto(unsigned char*& bytes, unsigned long& size, jpeg_compress_str
   return true;
 }
 
-cv::Mat readJpeg(const std::vector<std::uint8_t>& bytes) {
+cv::Mat turnedUpright(const cv::Mat& stored, unsigned orientation) {
+  cv::Mat image = stored;
+  if (orientation >= 5 && orientation <= 8) cv::transpose(stored, image);
+  const bool mirrored = orientation == 2 || orientation == 6,
+             upside_down = orientation == 4 || orientation == 8;
+  if (mirrored || upside_down) cv::flip(image, image, mirrored ? 1 : 0);
+  if (orientation == 3 || orientation == 7) cv::flip(image, image, -1);
+  return image;
+}
+
+cv::Mat readJpeg(const std::vector<std::uint8_t>& bytes, bool upright) {
   JpegErrors errors;
   jpeg_decompress_struct jpeg{};
   useQuietly(jpeg.err, errors);
@@ -75,7 +107,9 @@ cv::Mat readJpeg(const std::vector<std::uint8_t>& bytes) {
   const std::unique_ptr<jpeg_decompress_struct, decltype(&jpeg_destroy_decompress)> owned(
       &jpeg, &jpeg_destroy_decompress);
   cv::Mat image;
-  return readJpegInto(image, jpeg, errors, bytes) ? image : cv::Mat();
+  unsigned orientation = 1;
+  if (!readJpegInto(image, orientation, jpeg, errors, bytes)) return {};
+  return upright ? turnedUpright(image, orientation) : image;
 }
 
 cv::Mat readPng(const std::vector<std::uint8_t>& bytes) {
@@ -109,8 +143,9 @@ bool writePng(const std::string& file, const cv::Mat& image) {
 
 }  // namespace
 
-cv::Mat readImage(const std::vector<std::uint8_t>& bytes) {
-  return bytes.size() > 1 && bytes[0] == 0xff && bytes[1] == 0xd8 ? readJpeg(bytes) : readPng(bytes);
+cv::Mat readImage(const std::vector<std::uint8_t>& bytes, bool upright) {
+  const bool jpeg = bytes.size() > 1 && bytes[0] == 0xff && bytes[1] == 0xd8;
+  return jpeg ? readJpeg(bytes, upright) : readPng(bytes);
 }
 
 std::vector<std::uint8_t> writeJpeg(const cv::Mat& image, int quality) {

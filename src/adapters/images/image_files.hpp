@@ -9,9 +9,10 @@
 
 namespace window_ingress::adapters {
 
+/// \param upright turns a photograph as viewers do, by the orientation that its camera has noted (EXIF)
 /// \return CV_8UC1 for a grey image, else CV_8UC3 (BGR); empty if it is neither JPEG nor PNG, or damaged.
-/// Ignores transparency and the orientation noted by the camera.
-cv::Mat readImage(const std::vector<std::uint8_t>& bytes);
+/// Ignores transparency.
+cv::Mat readImage(const std::vector<std::uint8_t>& bytes, bool upright = false);
 
 /// \param image CV_8UC1 or CV_8UC3 (BGR)
 /// \param quality 1 to 100

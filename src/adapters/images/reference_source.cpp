@@ -55,7 +55,7 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
     throw InputError("reference/picture: " + reference.picture + ": no such file");
   std::ifstream file(reference.picture, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-  cv::Mat image = readImage(bytes);
+  cv::Mat image = readImage(bytes, /*upright=*/true);
   if (image.empty())
     throw InputError("reference/picture: cannot read '" + reference.picture + "' as JPEG or PNG");
   if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);

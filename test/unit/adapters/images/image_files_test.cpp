@@ -49,6 +49,44 @@ TEST(ImageFiles, TransparencyAndSixteenBitsAreLeftOut) {
   }
 }
 
+/// The JPEG with an EXIF header that holds this orientation, little or big endian.
+std::vector<std::uint8_t> held(std::vector<std::uint8_t> jpeg, std::uint8_t orientation, bool little) {
+  std::vector<std::uint8_t> tiff = {'I', 'I', 42, 0, 8, 0,           0, 0, 1, 0, 0x12, 1, 3,
+                                    0,   1,   0,  0, 0, orientation, 0, 0, 0, 0, 0,    0, 0};
+  if (!little)
+    tiff = {'M', 'M', 0, 42, 0, 0, 0, 8, 0, 1, 1, 0x12, 0, 3, 0, 0, 0, 1, 0, orientation, 0, 0, 0, 0, 0, 0};
+  std::vector<std::uint8_t> exif = {0xff, 0xe1, 0, static_cast<std::uint8_t>(8 + tiff.size()), 'E', 'x', 'i',
+                                    'f',  0,    0};
+  exif.insert(exif.end(), tiff.begin(), tiff.end());
+  jpeg.insert(jpeg.begin() + 2, exif.begin(), exif.end());
+  return jpeg;
+}
+
+TEST(ImageFiles, PhotographsAreTurnedAsTheirCameraWasHeldIfAskedFor) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", colours(), jpeg);
+  for (std::uint8_t orientation = 0; orientation <= 9; ++orientation)
+    for (const bool little : {true, false}) {
+      const std::vector<std::uint8_t> bytes = held(jpeg, orientation, little);
+      EXPECT_TRUE(same(readImage(bytes, true), cv::imdecode(bytes, cv::IMREAD_COLOR)))
+          << int(orientation) << little;
+      EXPECT_TRUE(same(readImage(bytes), readImage(jpeg)));
+    }
+}
+
+TEST(ImageFiles, ACutOrFalseOrientationDoesNoHarm) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", colours(), jpeg);
+  const std::vector<std::uint8_t> good = held(jpeg, 6, true);
+  for (std::size_t at = 4; at < 36; ++at)
+    for (const std::uint8_t byte : {0x00, 0x7f, 0xff}) {
+      std::vector<std::uint8_t> bytes = good;
+      bytes[at] = byte;
+      const cv::Mat image = readImage(bytes, true);
+      EXPECT_TRUE(image.empty() || image.total() == colours().total()) << at;
+    }
+}
+
 TEST(ImageFiles, JpegIsWrittenAsOpenCvWritesIt) {
   for (const int quality : {60, 95}) {
     std::vector<std::uint8_t> bytes;
