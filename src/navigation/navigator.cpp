@@ -19,6 +19,8 @@
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
+constexpr const char* kIgnored =
+    "; told to move, the vehicle stands by its odometry: does the autopilot follow the setpoints?";
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -49,6 +51,9 @@ struct Navigator::Impl {
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
   std::string byFence() const {
     return held_by_fence ? "; the fence (limits/fence_radius_m) holds the vehicle" : "";
+  }
+  bool isIgnored() const {
+    return isMoving(state) && observer.ignoresSetpoints() && params.input.max_turned_rad < M_PI;
   }
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   bool isInOpening(const Situation& situation) const {
@@ -180,7 +185,7 @@ struct Navigator::Impl {
     report.next_window = params.search.next_window;
     const ResponseEstimator& response = observer.response();
     report.vehicle = {response.isMeasured(), response.responseSec(), response.accelerationMps2(),
-                      monitor.odometry().biasMps()};
+                      monitor.odometry().biasMps(), isIgnored()};
     const auto& target = mission.committed ? mission.committed : situation.target;
     if (!target || !situation.vehicle) return report;
     const RelativeState relative = relate(*situation.vehicle, *target);
@@ -281,7 +286,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   output.setpoint.heading_error_rad = self.monitor.odometry().headingErrorRad();
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
-  output.reason = self.reason + self.byFence();
+  output.reason = self.reason + self.byFence() + (self.isIgnored() ? kIgnored : "");
   output.report = self.reportOn(situation);
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;

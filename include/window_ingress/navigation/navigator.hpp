@@ -39,6 +39,7 @@ struct MeasuredVehicle {
   double acceleration_mps2 = 0.0;  ///< fastest change of velocity; infinite if no limit was seen
   Eigen::Vector3d velocity_bias_base_mps =
       Eigen::Vector3d::Zero();  ///< horizontal bias of odometry's velocity, already subtracted
+  bool ignores_setpoints = false;  ///< told to move, it stands by odometry
 };
 
 /// Figures for people and reports; zero where they do not apply to the state.

@@ -267,7 +267,8 @@ Health NavigatorNode::engagementHealth() const {
 
 Health NavigatorNode::missionHealth() const {
   const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
-  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
+  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold ||
+                   last_.report.vehicle.ignores_setpoints;
   return {bad ? Health::kWarn : Health::kOk, text};
 }
 

@@ -45,7 +45,10 @@ Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
   if (params_.start_at_once && last_.state == State::kIdle)
     return {false, "start_at_once: the mission starts by itself as soon as it can"};
   Reply reply = navigator_.start(input_, now_sec, policy);
-  if (reply.success) return reply;
+  if (reply.success) {
+    for (const std::string& fault : upstream_.texts()) reply.message += "; but beware: " + fault;
+    return reply;
+  }
   for (const Health& health : {odom_.health(), pose_.health(), engagementHealth()})
     if (health.level == Health::kError) reply.message += "; " + health.text;
   for (const std::string& fault : upstream_.texts()) reply.message += "; " + fault;
@@ -89,7 +92,9 @@ Reply NavigatorNode::enable(bool wanted) {
   if (wanted) return {true, "enabled: zeros in IDLE, ~start may be called"};
   const bool flies = !whyFlying().empty();
   if (flies) abortMission("aborted: disabled (~enable)");
-  return {true, std::string(flies ? "aborted, " : "") + "disabled: sends nothing, starts nothing"};
+  return {true, std::string(flies ? "aborted, " : "") +
+                    "disabled: starts nothing and sends nothing; the guard sends zeros "
+                    "for setpoint_guard/stop_streaming_after_sec more"};
 }
 
 // Publishes the mission's end before it is forgotten, however soon the reset comes.

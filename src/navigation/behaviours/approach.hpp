@@ -44,9 +44,9 @@ class Approach : public Behaviour {
     if (!criterion.holds) mission.unmet = criterion.unmet;
     decision.event = judge(criterion, relative, situation, decision.reason);
     const bool is_to_be_asked = isToBeAsked(target, mission, params_->commit);
-    mission.opening_asked = looks_ && is_to_be_asked;
+    mission.opening_asked = is_to_be_asked && (looks_ || mission.opening_asked);
     const bool only_that = criterion.unmet == whyNotEntered(target, mission, params_->commit);
-    if (is_to_be_asked && !looks_ && only_that && !decision.event)
+    if (is_to_be_asked && !mission.opening_asked && only_that && !decision.event)
       decision.reason = "on the window's normal; will ask at the commit line whether it is open";
     if (decision.event == Event::kCommitReached) {
       mission.committed = target;

@@ -24,11 +24,11 @@ struct MissionState {
   std::vector<Eigen::Vector3d> others_odom_m;                 ///< windows that are not the target
   std::vector<Eigen::Vector3d> left_odom_m;  ///< windows left for good: closed, or all tries failed
   std::vector<std::uint32_t> given_up;       ///< numbers of the windows that were left, in that order
-  bool opening_asked = false;                ///< the vehicle waits at the commit line for the operator
-  bool opening_confirmed = false;            ///< the operator has confirmed that the target is open
-  bool was_near = false;                     ///< the vehicle has approached a window: eaves may be above it
-  bool was_in_front = true;  ///< the vehicle was clear of the opening at its last known position
-  int others = 0;            ///< how often the vehicle flew at a window that was not the target
+  bool opening_asked = false;      ///< the vehicle has reached the commit line and asked the operator
+  bool opening_confirmed = false;  ///< the operator has confirmed that the target is open
+  bool was_near = false;           ///< the vehicle has approached a window: eaves may be above it
+  bool was_in_front = true;        ///< the vehicle was clear of the opening at its last known position
+  int others = 0;                  ///< how often the vehicle flew at a window that was not the target
   int back_offs = 0;
   std::string unmet;              ///< last reason why the commit criterion did not hold
   double predicted_miss_m = 0.0;  ///< of the commit, when it could last be broken off

@@ -36,6 +36,7 @@ class DisturbanceObserver {
     restart();
     response_.reset();
     climb_.reset();
+    answer_ = Answer();
   }
 
   /// \param measured_mps of the vehicle, \param commanded_mps the previous setpoint; both odom axes
@@ -48,6 +49,7 @@ class DisturbanceObserver {
     directions_.add({all_mps.x(), all_mps.y()}, {measured_mps.x(), measured_mps.y()}, dt_sec, keep);
     const Eigen::Vector3d model_mps(all_mps.x(), all_mps.y(), climbResponse().velocity().z());
     climbs_.add(model_mps.z(), measured_mps.z(), dt_sec, keep);
+    answer_.add(commanded_mps, measured_mps, dt_sec, keep);
     const Eigen::Vector3d surprise_mps = measured_mps - model_mps - disturbance_mps_;
     disturbance_mps_ += share(dt_sec, kWindSec) * clipped(surprise_mps, max_wind_mps_);
     disturbance_mps_ = clipped(disturbance_mps_, max_wind_mps_);
@@ -77,6 +79,9 @@ class DisturbanceObserver {
   /// Whether the vehicle sinks where it is told to climb, and the reverse, over `kGustMemorySec`: a
   /// downdraught that carries it so far is no condition to fly in either.
   bool isUpsideDown() const { return climbs_.areReversed(); }
+  /// Whether the vehicle has stood since `reset` although it was told to move, over `kGustMemorySec`. A
+  /// steady velocity bias is no motion.
+  bool ignoresSetpoints() const { return !answer_.has_moved && answer_.said_m2ps > Answer::kEnoughM2ps; }
   const ResponseEstimator& response() const { return response_; }
   /// Vertical response, which is slower in most vehicles; the response of all axes until it is measured.
   const ResponseEstimator& climbResponse() const { return climb_.isMeasured() ? climb_ : response_; }
@@ -131,6 +136,24 @@ class DisturbanceObserver {
     double said_m2ps = 0.0, both_m2ps = 0.0;
   };
 
+  /// How much was asked of the vehicle, and whether it has ever moved.
+  struct Answer {
+    static constexpr double kEnoughM2ps = 2.0;  ///< 4 s of 0.7 m/s, or 15 s of 0.4 m/s
+    static constexpr double kMovesMps = 0.15, kNoiseSec = 0.5, kBiasSec = 3.0;
+
+    void add(const Eigen::Vector3d& said, const Eigen::Vector3d& done, double dt_sec, double keep) {
+      if (said_m2ps == 0.0) now_mps = usual_mps = done;
+      now_mps += share(dt_sec, kNoiseSec) * (done - now_mps);
+      usual_mps += share(dt_sec, kBiasSec) * (done - usual_mps);
+      has_moved = has_moved || (now_mps - usual_mps).norm() > kMovesMps;
+      said_m2ps = keep * said_m2ps + dt_sec * said.squaredNorm();
+    }
+
+    double said_m2ps = 0.0;
+    Eigen::Vector3d now_mps = Eigen::Vector3d::Zero(), usual_mps = Eigen::Vector3d::Zero();
+    bool has_moved = false;
+  };
+
   static Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
     const double norm = velocity_mps.norm();
     return norm > limit_mps ? Eigen::Vector3d(velocity_mps * (limit_mps / norm)) : velocity_mps;
@@ -146,6 +169,7 @@ class DisturbanceObserver {
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed, because noise moves no vehicle
   Directions directions_;
   Climbs climbs_;
+  Answer answer_;
   Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
   double watched_sec_ = 0.0;  ///< fading
 };
