@@ -73,8 +73,8 @@ class FlyResults {
     std::vector<std::uint32_t> seeds;
     for (const auto& flight : flights) seeds.push_back(flight.seed);
     const tools::FlyOptions& o = job_.asked;
-    return {o.scenario,     evaluation::seedsText(seeds), o.draws, o.params,
-            !o.no_pictures, WINDOW_INGRESS_VERSION};
+    return {o.scenario,     evaluation::seedsText(seeds), o.draws,      o.params,
+            !o.no_pictures, WINDOW_INGRESS_VERSION,       job_.warnings};
   }
 
   const FlyJob& job_;

@@ -45,6 +45,7 @@ struct FlyJob {
   std::vector<std::uint32_t> seeds = {};
   evaluation::FlightDraws draws = {};
   evaluation::FlightParams params = {};
+  std::vector<std::string> warnings = {};
 };
 
 inline OptionList describeFly(FlyOptions& o) {
@@ -132,7 +133,8 @@ inline FlyJob jobOf(const FlyOptions& o) {
     const std::uint32_t seed = job.seeds.empty() ? 1U : job.seeds.front();  // a shard may be empty
     for (const std::string& other :
          {otherSizes(job.params, job.scenario(seed)), otherReference(job.params), onlyForNodes(job.params)})
-      if (!other.empty()) std::cerr << "fly: warning: " << other << "\n";
+      if (!other.empty()) job.warnings.push_back(other);
+    for (const std::string& warning : job.warnings) std::cerr << "fly: warning: " << warning << "\n";
   }
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);

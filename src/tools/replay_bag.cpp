@@ -86,6 +86,8 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   }
   params.with_pose = !o.size.empty() || params.gives("homography_pose/pose/opening_width_m");
   if (!params.with_pose) say("the opening's size is missing (--window-size W,H): corners, but no poses");
+  if (params.with_pose && params.topics.odom.empty())
+    say("no odometry in the bag: poses of single images only");
   if (!o.size.empty()) tools::takeWindowSize("--window-size", o.size, params.homography_pose.pose);
   return params;
 }

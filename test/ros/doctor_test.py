@@ -11,6 +11,7 @@ import rostest
 from geometry_msgs.msg import TwistStamped
 from roslib.packages import find_node
 from sensor_msgs.msg import CameraInfo
+from std_srvs.srv import SetBool
 
 import support
 
@@ -61,6 +62,15 @@ class DoctorTest(unittest.TestCase):
         code, said = doctor(PYTHONPATH="/usr/lib/python3/dist-packages")
         self.assertEqual(code, 2)
         self.assertIn("not built, or its workspace is not sourced", said)
+
+    def test_a_navigator_that_is_disabled(self):
+        enable = rospy.ServiceProxy("/ingress_navigator/enable", SetBool)
+        enable(False)
+        try:
+            said = self.expect("navigator: IDLE: disabled (~enable)", "mend: rosservice call /ingress_navigator/enable true")
+        finally:
+            enable(True)
+        self.assertNotIn("setpoint_guard: cmd_vel_in", said)
 
     def test_two_sources_of_setpoints(self):
         other = rospy.Publisher("/cmd_vel", TwistStamped, queue_size=1)

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Services always answer, the stream never stops while enabled, and setpoints are zero when the data stops."""
+import os
+import signal
 import sys
 import time
 import unittest
@@ -14,6 +16,7 @@ from window_ingress.msg import IngressState, WindowPose
 import support
 
 STREAM_HZ, STREAM_FOR_S = 20.0, 2.0
+SLEEPS_S = 4.0
 STALE_WITHIN_S = 0.6  # limit of the age, plus margin for a loaded machine
 
 
@@ -152,6 +155,16 @@ class IngressNavigatorTest(unittest.TestCase):
         self.wait_for_state("HOLD", "ABORTED")
         support.wait_for(lambda: len(self.setpoints.since(begin)) > 20, "the stream after the loss")
         self.assertTrue(all(speed(s) == 0.0 for s in self.setpoints.since(begin)))
+
+    def test_a_navigator_that_stood_still_does_not_fly_on(self):
+        self.start()
+        navigator = support.pid_of("/ingress_navigator")
+        os.kill(navigator, signal.SIGSTOP)
+        time.sleep(SLEEPS_S)
+        os.kill(navigator, signal.SIGCONT)
+        said = self.wait_for_state("ABORTED")
+        self.assertIn("the navigator itself stood still for", said.reason)
+        self.assertEqual({speed(s) for s in self.setpoints.since(time.monotonic() - SLEEPS_S + 0.2)}, {0.0})
 
     def test_odometry_that_is_not_finite_is_no_odometry(self):
         self.start()

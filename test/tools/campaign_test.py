@@ -45,6 +45,7 @@ def test_the_summary_says_what_was_flown(tmp_path):
     assert "fly: warning: window_detector/reference is not used" in done.stderr
     assert "fly: warning: not used, because no nodes run: ingress_navigator/max_silence_sec, setpoint_guard/max_speed_mps, window_detector/max_rate_hz\n" in done.stderr
     summary = json.loads((tmp_path / "out/summary.json").read_text())
+    assert all(f"fly: warning: {warning}\n" in done.stderr for warning in summary["warnings"]) and len(summary["warnings"]) == 3
     version = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1)
     assert {key: summary[key] for key in ("scenario", "seeds", "draws", "params", "pictures", "version")} == {
         "scenario": str(scenario), "seeds": "4..6", "draws": "", "params": str(params), "pictures": False, "version": version}
@@ -68,6 +69,19 @@ def test_a_campaign_is_overwritten_only_where_asked_for(tmp_path):
     again = call(*command)
     assert again.returncode == 2 and "--overwrite" in again.stderr and "short" in again.stderr
     assert call(*command, "--overwrite").returncode == 0
+
+
+def test_the_table_says_with_which_parameters_and_what_of_them_does_not_count(tmp_path):
+    racer = tmp_path / "racer.yaml"
+    racer.write_text("vehicle: {half_width_m: 0.35}\n")
+    out = ("campaign", "--no-pictures", "--seeds", "1..2", "--output", tmp_path / "out")
+    assert run(*out, "--params", racer, scenario_in(tmp_path)).returncode == 0
+    table = (tmp_path / "out/table.md").read_text()
+    assert f"Flown with `--params {racer}`" in table and "Warning: the file says a vehicle of" in table, table
+    other = run(*out, scenario_in(tmp_path, "other"))
+    assert other.returncode == 2 and "holds the table of another campaign" in other.stderr
+    assert (tmp_path / "out/table.md").read_text() == table
+    assert run(*out, "--overwrite", scenario_in(tmp_path, "other")).returncode == 0
 
 
 def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):

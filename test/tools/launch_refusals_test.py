@@ -103,7 +103,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path):
     config.write_text("vehicle: {half_width_m: 0.7}\ningress_navigator: {navigator: {limits: {acceleration_mps2: 0.5}}}\n")
     said = refusal(ROOT / "launch/ingress.launch", f"config:={config}", "reference:=none.png", "window_size:=1")
     for fault in ("reference:=none.png: give its whole path", "window_size: '1' is not 2 numbers",
-                  "must not be below vehicle/braking_mps2", "does not fit through the opening"):
+                  "braking_mps2 must not exceed limits/acceleration_mps2", "does not fit through the opening"):
         assert fault in said
     assert said.count("give its whole path") == 1, said
 

@@ -145,6 +145,16 @@ def test_calibration_that_is_missing_is_said(tmp_path):
     assert done.returncode == 2 and "no calibration" in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
+def test_a_camera_of_another_frame_gives_no_pose_as_in_flight(tmp_path):
+    done = replay(bag_of(tmp_path, "rear_info", "seconds=1"), tmp_path / "out", *SIZE)
+    assert "frames differ: the image has frame_id 'camera_optical_frame', camera_info on /camera/camera_info 'rear'" in done.stderr + (tmp_path / "out/replay.json").read_text()
+    assert not any(row["qx"] for row in rows_of(tmp_path / "out/frames.csv"))
+
+
+def test_odometry_that_is_missing_is_said(tmp_path):
+    assert "no odometry in the bag: poses of single images only" in replay(bag_of(tmp_path, "no_odom", "seconds=1"), tmp_path / "out", *SIZE).stderr
+
+
 def test_a_page_needs_its_tables(tmp_path):
     done = run("report_replay.py", tmp_path)
     assert done.returncode != 0 and "frames.csv" in done.stderr

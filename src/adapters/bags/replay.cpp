@@ -139,7 +139,10 @@ class Replay {
     processComplete();
   }
 
-  void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
+  void takeCamera(const sensor_msgs::CameraInfo& message) {
+    camera_ = cameraFromMsg(message, params_.vehicle.image_is_rectified);
+    camera_frame_id_ = message.header.frame_id;
+  }
 
   void noticeJump(const ros::Time& stamp) {
     const double sec = stamp.toSec(), back_sec = newest_sec_ - sec;
@@ -177,7 +180,7 @@ class Replay {
     ReplayedFrame frame;
     frame.stamp = waiting.header.stamp;
     frame.image = decoded.image;
-    const auto camera = cameraOf(decoded.image);
+    const auto camera = cameraOf(decoded.image, waiting.header.frame_id);
     if (!camera) refuse("camera_info", camera.reason);
     frame.camera = camera.value;
     const double stamp_sec = frame.stamp.toSec();
@@ -199,10 +202,11 @@ class Replay {
     each_(frame);
   }
 
-  Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const {
-    if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows))
-      return camera_;
-    return {std::nullopt, "camera_info is for images of another size"};
+  Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image, const std::string& frame_id) const {
+    if (!camera_) return camera_;
+    const std::string misfit = misfitOf(*camera_.value, camera_frame_id_, params_.topics.camera_info,
+                                        image.cols, image.rows, frame_id);
+    return misfit.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit};
   }
 
   void locate(ReplayedFrame& frame, const Converted<Eigen::Isometry3d>& mounted) {
@@ -244,6 +248,7 @@ class Replay {
   evaluation::FlightPerception perception_;
   estimation::PoseBuffer odometry_;
   Converted<geometry::PinholeCamera> camera_;
+  std::string camera_frame_id_;
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   double newest_sec_ = -1.0;

@@ -105,6 +105,17 @@ Converted<PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, b
   return {camera, ""};
 }
 
+std::string misfitOf(const PinholeCamera& camera, const std::string& camera_frame_id,
+                     const std::string& topic, int width_px, int height_px, const std::string& frame_id) {
+  const std::string info = "camera_info on " + topic;
+  if (camera.width != width_px || camera.height != height_px)
+    return formatted("sizes differ: the image has %dx%d pixels, %s is for %dx%d", width_px, height_px,
+                     info.c_str(), camera.width, camera.height);
+  if (!frame_id.empty() && frame_id != camera_frame_id)
+    return "frames differ: the image has frame_id '" + frame_id + "', " + info + " '" + camera_frame_id + "'";
+  return "";
+}
+
 sensor_msgs::CameraInfo toMsg(const PinholeCamera& camera) {
   sensor_msgs::CameraInfo message;
   message.width = static_cast<std::uint32_t>(camera.width);

@@ -94,6 +94,10 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
 /// Applies binning and region of interest: the camera is that of the received image (REP 104).
 /// \param rectified the images are rectified: P is used instead of K and D
 Converted<geometry::PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified);
+/// Why the calibration on this topic is not that of an image of this size; empty if it may be. An empty
+/// `frame_id` of the image matches every frame.
+std::string misfitOf(const geometry::PinholeCamera& camera, const std::string& camera_frame_id,
+                     const std::string& topic, int width_px, int height_px, const std::string& frame_id);
 sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< without header
 
 /// Takes the twist in the child frame (REP 147, nav_msgs) and rotates it to odom.

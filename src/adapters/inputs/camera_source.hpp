@@ -30,7 +30,9 @@ class CameraSource {
 
   /// The camera for an image of this size, or the reason why not. An empty `frame_id` matches every frame.
   Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& image) {
-    misfit_ = camera_ ? misfit(width_px, height_px, image.frame_id) : "";
+    misfit_ = camera_
+                  ? misfitOf(*camera_.value, frame_id_, input_.topic(), width_px, height_px, image.frame_id)
+                  : "";
     if (camera_) compareStamps(image.stamp);
     return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
   }
@@ -52,18 +54,11 @@ class CameraSource {
       input_.refused(camera_.reason);
   }
 
-  std::string misfit(int width_px, int height_px, const std::string& frame_id) const {
-    const std::string topic = "camera_info on " + input_.topic();
-    if (camera_.value->width != width_px || camera_.value->height != height_px)
-      return formatted("sizes differ: the image has %dx%d pixels, %s is for %dx%d", width_px, height_px,
-                       topic.c_str(), camera_.value->width, camera_.value->height);
-    if (!frame_id.empty() && frame_id != frame_id_)
-      return "frames differ: the image has frame_id '" + frame_id + "', " + topic + " '" + frame_id_ + "'";
-    return "";
-  }
-
   void compareStamps(const ros::Time& image) {
     apart_sec_ = image.toSec() - input_.lastStamp().toSec();
+    // Where images take long, the calibration of later ones has come already.
+    const double age_sec = std::max(0.0, ros::Time::now().toSec() - image.toSec());
+    if (apart_sec_ < 0.0) apart_sec_ = std::min(0.0, apart_sec_ + age_sec);
     if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
   }
 

@@ -127,6 +127,7 @@ void NavigatorNode::step() {
   restartIfClockJumpedBack(now.toSec());
   forgetSilentInputs();
   abortIfForgotten();
+  abortIfItSlept();
   const bool works = diagnostics_.catchAll("navigator", [&] { last_ = decide(now.toSec()); });
   if (isLeftToOthers()) {
     last_.enabled = was_enabled_ = false;

@@ -40,6 +40,7 @@ class NavigatorNode : public Node {
   void forgetSilentInputs();
   void restartIfClockJumpedBack(double now_sec);
   void abortIfForgotten();
+  void abortIfItSlept();
   bool clockStandsStill(double now_sec);
   navigation::NavigatorOutput decide(double now_sec);
   void advertiseServices(ros::NodeHandle& pnh);
@@ -74,7 +75,7 @@ class NavigatorNode : public Node {
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput last_;
   FlightTrail trail_;
-  double drawn_sec_ = 0.0;
+  double drawn_sec_ = 0.0, stepped_sec_ = 0.0;
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false, is_disabled_ = false;

@@ -2,6 +2,8 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <ctime>
+
 #include "adapters/navigator/navigator_node.hpp"
 #include "adapters/runtime/services.hpp"
 
@@ -70,6 +72,18 @@ void NavigatorNode::abortIfForgotten() {
   if (!master_ || !master_->isForgotten() || whyFlying().empty()) return;
   if (navigator_.state() != navigation::State::kCommit)
     navigator_.abort(std::string("aborted: ") + kForgotten);
+}
+
+// The guard has braked meanwhile, and a pilot or the autopilot's failsafe may have the vehicle.
+void NavigatorNode::abortIfItSlept() {
+  constexpr double kSleptSec = 3.0;
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);  // counts a suspended computer's sleep, too
+  const double before_sec = stepped_sec_;
+  stepped_sec_ = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  if (lockstep_ || stepped_sec_ - before_sec < kSleptSec || whyFlying().empty()) return;
+  navigator_.abort(formatted("aborted: the navigator itself stood still for %.1f s (suspended? too busy?)",
+                             stepped_sec_ - before_sec));
 }
 
 Health NavigatorNode::masterHealth() const {

@@ -109,6 +109,7 @@ std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts
                             {"seeds", facts.seeds},
                             {"draws", facts.draws},
                             {"params", facts.params},
+                            {"warnings", facts.warnings},
                             {"pictures", facts.with_images},
                             {"version", facts.version},
                             {"flights", all},

@@ -49,7 +49,8 @@ struct CampaignFacts {
   std::string draws;     ///< file; empty: none was given
   std::string params;    ///< file that overrides the defaults; empty: none was given
   bool with_images = true;
-  std::string version;  ///< of the package
+  std::string version;                ///< of the package
+  std::vector<std::string> warnings;  ///< what of the parameters does not count in these flights
 };
 
 /// Number of flights with each outcome and reason, without numbers; of all flights but PASSED.

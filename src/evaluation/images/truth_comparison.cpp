@@ -66,18 +66,24 @@ void TruthSummary::add(const TruthErrors& errors) {
 }
 
 std::string TruthSummary::text() const {
-  return formatted(
+  std::string text = formatted(
       "%d images with truth, %d of them show the whole window\n"
       "whole window: found in %d (%.1f %%), something else mistaken for it in %d\n"
-      "other images: found in %d, something else mistaken for it in %d\n"
-      "corners: RMS x %.3f y %.3f px, mean x %+.3f y %+.3f px, outward %+.3f px, median distance %.3f "
-      "px, worst %.3f px (%d images)\n"
-      "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
-      images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined,
-      corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
-      corners.median(), corners.worst(), corners.frames(),
-      medianOrZero(yaw_errors_rad) * geometry::kDegreesPerRad, medianOrZero(distance_errors_m),
-      yaw_errors_rad.size());
+      "other images: found in %d, something else mistaken for it in %d\n",
+      images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined);
+  if (corners.frames() > 0)
+    text += formatted(
+        "corners: RMS x %.3f y %.3f px, mean x %+.3f y %+.3f px, outward %+.3f px, median distance %.3f "
+        "px, worst %.3f px (%d images)\n",
+        corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
+        corners.median(), corners.worst(), corners.frames());
+  if (!yaw_errors_rad.empty())
+    text += formatted("median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
+                      medianOrZero(yaw_errors_rad) * geometry::kDegreesPerRad,
+                      medianOrZero(distance_errors_m), yaw_errors_rad.size());
+  if (found == 0 && exchanged > 0)
+    text += "none lies where the truth says: do camera_info and the truth belong to these images?\n";
+  return text;
 }
 
 }  // namespace window_ingress::evaluation

@@ -57,15 +57,16 @@ class Commit : public Behaviour {
     return decision;
   }
 
-  /// Whether COMMIT may resume after a loss of odometry: the vehicle is already through, or the criterion
-  /// still holds for the committed window with the drift since. A vehicle that can still stop must also see
-  /// the window at its place.
+  /// Whether COMMIT may resume after a loss of odometry: the vehicle is already through, or the window was
+  /// seen lately and the criterion still holds for the committed window with the drift since. A vehicle that
+  /// can still stop must also see the window at its place.
   static bool canResume(const Situation& situation, const MissionState& mission,
                         const NavigatorParams& params) {
     if (!mission.committed || !situation.vehicle) return false;
     const TargetEstimate committed = ahead(*mission.committed, situation.now_sec);
     const RelativeState relative = relate(*situation.vehicle, committed);
     if (relative.distance() < -params.vehicle.half_length_m) return true;
+    if (situation.now_sec - committed.stamp_sec > params.commit.max_blind_sec) return false;
     if (canStop(relative, committed, situation, params) && !seesAtItsPlace(situation, committed))
       return false;
     return !isBroken(criterionNow(committed, situation, mission, params), params);

@@ -27,7 +27,9 @@ NavigatorParams checked(NavigatorParams params) {
     faults.push_back("limits/min_height_m must be below limits/max_height_m");
   if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2)
     faults.push_back(
-        "limits/acceleration_mps2 must not be below vehicle/braking_mps2: setpoints could not brake so hard");
+        "vehicle/braking_mps2 must not exceed limits/acceleration_mps2: setpoints could not brake so hard; "
+        "lower "
+        "the former, unless the vehicle may accelerate more");
   parameters::throwIfAny(faults, "navigator");
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;

@@ -41,7 +41,9 @@ TEST(FlightSummary, CountsOutcomesAndLikeCausesTogether) {
   for (std::uint32_t seed = 1; seed <= 8; ++seed) flights.push_back(passed(seed, seed, 0.01 * seed));
   flights.push_back(failed(Outcome::kAborted, "gave up at 12.30 s"));
   flights.push_back(failed(Outcome::kAborted, "gave up at 9.75 s"));
-  const auto json = nlohmann::json::parse(toJson(flights, {"a.yaml", "1..10", "", "b.yaml", false, "1.2.3"}));
+  const auto json = nlohmann::json::parse(
+      toJson(flights, {"a.yaml", "1..10", "", "b.yaml", false, "1.2.3", {"not used: x"}}));
+  EXPECT_EQ(json["warnings"][0], "not used: x");
   EXPECT_EQ(json["scenario"], "a.yaml");
   EXPECT_EQ(json["seeds"], "1..10");
   EXPECT_EQ(json["draws"], "");

@@ -38,6 +38,25 @@ TEST(ApproachBehaviour, WaitsAtTheLineForWhatIsUnverifiedAndBacksOff) {
   EXPECT_NE(mission.unmet.find("camera mounting"), std::string::npos) << "what is said where it gives up";
 }
 
+// While it waits, the line moves by decimetres with the vehicle's attitude; an answer must count all the
+// same.
+TEST(ApproachBehaviour, WhatItHasAskedAtTheLineStaysAsked) {
+  const NavigatorParams asks;
+  Approach approach{asks};
+  MissionState mission;
+  const auto saidAt = [&](double distance_m, double now_sec) {
+    return approach.step(test::situationAt({-distance_m, 0.0, 1.5}, now_sec, true), mission).reason;
+  };
+  EXPECT_NE(saidAt(3.0, 1.0).find("will ask at the commit line"), std::string::npos);
+  EXPECT_FALSE(mission.opening_asked);
+  EXPECT_NE(saidAt(0.8, 2.0).find("call ~confirm_opening"), std::string::npos);
+  EXPECT_TRUE(mission.opening_asked);
+  EXPECT_NE(saidAt(3.0, 3.0).find("call ~confirm_opening"), std::string::npos);
+  EXPECT_TRUE(mission.opening_asked);
+  mission.leaveWindow();
+  EXPECT_NE(saidAt(3.0, 4.0).find("will ask at the commit line"), std::string::npos) << "another window";
+}
+
 TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
   Approach approach{kDefaults};
   MissionState mission;

@@ -78,6 +78,9 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false),
             Event::kWindowLost);  // odometry may have jumped
   EXPECT_EQ(wayOutOf(State::kCommit, known, true, true), Event::kWindowLost);
+  auto long_ago = committed;
+  long_ago.committed->stamp_sec -= kDefaults.commit.max_blind_sec;
+  EXPECT_EQ(wayOutOf(State::kCommit, long_ago, true, true), Event::kWindowLost);
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kReacquired);
   nothing.was_in_front = false;
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kGiveUp);
