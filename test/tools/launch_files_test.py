@@ -38,7 +38,7 @@ def test_setpoints_go_from_the_navigator_over_the_guard_to_the_autopilot(name):
 def test_in_flight_no_node_takes_the_guard_with_it(name):
     nodes = dump(name, *(["camera_pose:=[0,0,0,0,0,0]"] if name in GIVEN else []))["nodes"]
     assert not [node for node, what in nodes.items() if what["required"] and node not in ("/world", "/start_mission")]
-    assert nodes["/setpoint_guard"]["respawn"]
+    assert nodes["/setpoint_guard"]["respawn"] and nodes.get("/camera_mounting", {"respawn": True})["respawn"]
 
 
 @pytest.mark.parametrize("name, arguments", [("replay", ["rviz:=true"]), ("replay", []), ("rehearse", []), ("px4", ["fly:=false"])])
