@@ -225,7 +225,7 @@ bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
 void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation) {
   situation.image_fault = "no image searched so far";
   if (!input.image_stamp_sec) return;
-  situation.image_fault = ageFault("last image", *input.image_stamp_sec, situation.now_sec,
+  situation.image_fault = ageFault("last image in window_pose", *input.image_stamp_sec, situation.now_sec,
                                    params_.max_image_age_sec, params_.max_future_sec);
   situation.image_period_sec = image_period_sec_;
   if (!situation.image_fault.empty() || image_stamp_sec_ == input.image_stamp_sec) return;

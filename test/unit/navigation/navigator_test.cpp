@@ -68,7 +68,7 @@ TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
   const auto reply = navigator.start(nothing, now_);
   EXPECT_FALSE(reply.success);
   EXPECT_EQ(reply.message,
-            "not started: no odometry; last image 9.00 s old; "
+            "not started: no odometry; last image in window_pose 9.00 s old; "
             "the vehicle is not armed, not in a mode that follows setpoints, or in a failsafe");
   NavigatorInput blind = inputAt(kFar, now_);
   blind.image_stamp_sec.reset();
@@ -448,7 +448,7 @@ TEST_F(NavigatorSteps, HoldsWhenTheCameraFallsSilentDuringTheSearch) {
   input.image_stamp_sec = now_ - 2.0;
   const auto output = navigator.step(input, now_);
   EXPECT_EQ(output.state, State::kHold);
-  EXPECT_EQ(output.reason, "last image 2.00 s old");
+  EXPECT_EQ(output.reason, "last image in window_pose 2.00 s old");
 }
 
 TEST(NavigatorParamsCheck, RefusesLimitsThatCannotBrakeAsPlanned) {

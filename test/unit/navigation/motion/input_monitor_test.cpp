@@ -51,7 +51,7 @@ TEST(InputMonitor, AgeCountsInBothDirections) {
   input.vehicle->stamp_sec = 10.4;
   EXPECT_EQ(judge.judge(input, 10.41).target_fault, "window 0.41 s old");
   input.image_stamp_sec = 8.0;
-  EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image 2.41 s old");
+  EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image in window_pose 2.41 s old");
 }
 
 // Late odometry still describes the motion since its stamp, so it is used. Missing odometry says nothing.
