@@ -1,6 +1,6 @@
 """Writes a bag of a camera on a standing vehicle: usage write_camera_bag.py FILE.bag [WORD...]
 
-raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, rear_info (of another frame), no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
+raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, rear_info (of another frame), not_rectified (P is zero), no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
 window_pose and setpoints of the flight, which must not count as new ones).
 """
 import pathlib
@@ -40,7 +40,9 @@ def messages(stamp, pixels, words, image):
     is_raw = "raw" in words
     yield image if is_raw else image + "/compressed", message_of(pixels, stamp, is_raw)
     if "no_info" not in words:
-        yield image.rsplit("/", 1)[0] + "/camera_info", support.camera_info(stamp, "rear" if "rear_info" in words else "camera_optical_frame")
+        info = support.camera_info(stamp, "rear" if "rear_info" in words else "camera_optical_frame")
+        info.P = [0.0] * 12 if "not_rectified" in words else info.P
+        yield image.rsplit("/", 1)[0] + "/camera_info", info
     if "no_odom" not in words:
         yield "/odom", support.changed(support.odometry, header__frame_id="map" if "map" in words else "odom")(stamp)
     yield "/imu", support.imu(stamp)

@@ -145,10 +145,22 @@ def test_calibration_that_is_missing_is_said(tmp_path):
     assert done.returncode == 2 and "no calibration" in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
-def test_a_camera_of_another_frame_gives_no_pose_as_in_flight(tmp_path):
-    done = replay(bag_of(tmp_path, "rear_info", "seconds=1"), tmp_path / "out", *SIZE)
-    assert "frames differ: the image has frame_id 'camera_optical_frame', camera_info on /camera/camera_info 'rear'" in done.stderr + (tmp_path / "out/replay.json").read_text()
-    assert not any(row["qx"] for row in rows_of(tmp_path / "out/frames.csv"))
+def refused(bag, output, *options):
+    done = run("replay_bag", "--bag", bag, "--output", output, "--overwrite", *SIZE, *options)
+    assert done.returncode == 2, done.stderr
+    return done.stderr
+
+
+def test_a_camera_of_another_frame_is_refused_as_in_flight(tmp_path):
+    said = refused(bag_of(tmp_path, "rear_info", "seconds=1"), tmp_path / "out")
+    assert "frames differ: the image has frame_id 'camera_optical_frame', camera_info on /camera/camera_info 'rear'" in said, said
+
+
+def test_images_that_are_said_to_be_rectified_need_the_calibration_for_that(tmp_path):
+    bag, params = bag_of(tmp_path, "not_rectified", "seconds=1"), tmp_path / "params.yaml"
+    replay(bag, tmp_path / "out", *SIZE)
+    params.write_text("vehicle: {image_is_rectified: true}\n")
+    assert "P is zero, but the images are said to be rectified" in refused(bag, tmp_path / "out", "--params", params)
 
 
 def test_odometry_that_is_missing_is_said(tmp_path):
