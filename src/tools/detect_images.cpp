@@ -148,7 +148,8 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
     if (found.empty()) throw InputError(input + ": no image in this folder; folders in it are not searched");
     if (!others.empty())
       std::cerr << "detect_images: " << input << ": left out " << others.size()
-                << " whose names do not end as an image's, e.g. " << others.front() << "\n";
+                << " whose names do not end as an image's, e.g. "
+                << *std::min_element(others.begin(), others.end()) << "\n";
     std::sort(found.begin(), found.end());
     images.insert(images.end(), found.begin(), found.end());
   }

@@ -20,7 +20,7 @@ bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCame
   return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
 }
 
-double medianOrZero(std::vector<double> values) { return values.empty() ? 0.0 : geometry::median(values); }
+double medianOf(std::vector<double> values) { return geometry::median(values); }
 
 }  // namespace
 
@@ -79,8 +79,8 @@ std::string TruthSummary::text() const {
         corners.median(), corners.worst(), corners.frames());
   if (!yaw_errors_rad.empty())
     text += formatted("median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
-                      medianOrZero(yaw_errors_rad) * geometry::kDegreesPerRad,
-                      medianOrZero(distance_errors_m), yaw_errors_rad.size());
+                      medianOf(yaw_errors_rad) * geometry::kDegreesPerRad, medianOf(distance_errors_m),
+                      yaw_errors_rad.size());
   if (found == 0 && exchanged > 0)
     text += "none lies where the truth says: do camera_info and the truth belong to these images?\n";
   return text;

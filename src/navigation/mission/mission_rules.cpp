@@ -28,8 +28,7 @@ NavigatorParams checked(NavigatorParams params) {
   if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2)
     faults.push_back(
         "vehicle/braking_mps2 must not exceed limits/acceleration_mps2: setpoints could not brake so hard; "
-        "lower "
-        "the former, unless the vehicle may accelerate more");
+        "lower the former, unless the vehicle may accelerate more");
   parameters::throwIfAny(faults, "navigator");
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;

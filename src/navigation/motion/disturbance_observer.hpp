@@ -79,8 +79,8 @@ class DisturbanceObserver {
   /// Whether the vehicle sinks where it is told to climb, and the reverse, over `kGustMemorySec`: a
   /// downdraught that carries it so far is no condition to fly in either.
   bool isUpsideDown() const { return climbs_.areReversed(); }
-  /// Whether the vehicle has stood since `reset` although it was told to move, over `kGustMemorySec`. A
-  /// steady velocity bias is no motion.
+  /// Whether the vehicle has stood since the first command after `reset` although much was asked of it within
+  /// `kGustMemorySec`. A steady velocity bias is no motion.
   bool ignoresSetpoints() const { return !answer_.has_moved && answer_.said_m2ps > Answer::kEnoughM2ps; }
   const ResponseEstimator& response() const { return response_; }
   /// Vertical response, which is slower in most vehicles; the response of all axes until it is measured.
@@ -136,7 +136,7 @@ class DisturbanceObserver {
     double said_m2ps = 0.0, both_m2ps = 0.0;
   };
 
-  /// How much was asked of the vehicle, and whether it has ever moved.
+  /// How much was asked of the vehicle, and whether it has moved since the first command.
   struct Answer {
     static constexpr double kEnoughM2ps = 2.0;  ///< 4 s of 0.7 m/s, or 15 s of 0.4 m/s
     static constexpr double kMovesMps = 0.15, kNoiseSec = 0.5, kBiasSec = 3.0;
