@@ -7,6 +7,8 @@
 #include <random>
 
 #include "kinematic_plant.hpp"
+#include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/window_choice.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::opening_policy_test {
