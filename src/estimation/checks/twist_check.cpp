@@ -31,6 +31,10 @@ constexpr double kOtherMeaningBetter = 0.5;  // of the reported meaning's square
 constexpr double kMinEvidence = 12.0;        // for another meaning [nats]
 // Exact odometry: the other meaning fits better than a bias could make it.
 constexpr double kMaxExactMisfit = 0.15, kMinExactEvidence = 8.0;
+// Axes turned by a small heading look like a velocity that is off to the side for some seconds, as a
+// satellite receiver's is.
+constexpr double kLeastTurnedErrorMps = 0.25;
+constexpr std::size_t kLastTurned = 2;  // meaning; the one before it is turned by the heading, too
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
@@ -138,7 +142,9 @@ TwistCheck::Sums TwistCheck::sums(double bias_sigma_mps) const {
       sums.misfits[k] += std::min(squares, kMaxSquares);
       if (k == 0) sums.own_squares += std::min(squares, kMaxOwnSquares);
     }
+    sums.error_mps += square(piece.error_base_m[0].norm() / piece.sec) / static_cast<double>(pieces_.size());
   }
+  sums.error_mps = std::sqrt(sums.error_mps);
   return sums;
 }
 
@@ -152,6 +158,12 @@ std::size_t TwistCheck::betterMeaning(const Sums& sums, double max_misfit, doubl
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
 }
 
+std::size_t TwistCheck::betterMeaning(const Sums& all) const {
+  const std::size_t exact = betterMeaning(sums(kNoBiasMps), kMaxExactMisfit, kMinExactEvidence);
+  const std::size_t better = exact > 0 ? exact : betterMeaning(all, kMaxOtherMisfit, kMinEvidence);
+  return better <= kLastTurned && all.error_mps < kLeastTurnedErrorMps ? 0 : better;
+}
+
 void TwistCheck::judge() {
   const Sums all = sums(kBiasSigmaMps);
   if (all.way_m < kMinWayM) return;
@@ -160,8 +172,7 @@ void TwistCheck::judge() {
     verdict_ = {FramesVerdict::kGood, ""};
     return;
   }
-  const std::size_t exact = betterMeaning(sums(kNoBiasMps), kMaxExactMisfit, kMinExactEvidence);
-  const std::size_t better = exact > 0 ? exact : betterMeaning(all, kMaxOtherMisfit, kMinEvidence);
+  const std::size_t better = betterMeaning(all);
   const double mean_squares = all.own_squares / (3.0 * static_cast<double>(pieces_.size()));
   const bool is_refuted = all.misfits[0] <= all.misfits[accused_];
   if (better > 0) {

@@ -51,8 +51,8 @@ class TwistCheck {
     double way_m = 0.0, squares = 0.0;           ///< of the way itself
     std::array<double, kMeanings> misfits = {};  ///< of the errors; all weighted by the variances
     // Of the velocity as reported:
-    double own_squares = 0.0, bias_mps = 0.0;
-    double misfit() const;  ///< relative
+    double own_squares = 0.0, bias_mps = 0.0, error_mps = 0.0;  ///< error: root mean square of the pieces
+    double misfit() const;                                      ///< relative
   };
   void startAt(const Sample& now);
   void closePiece(const Eigen::Vector3d& moved_m);
@@ -60,6 +60,7 @@ class TwistCheck {
   Sums sums(double bias_sigma_mps) const;
   Eigen::Vector3d biasMps(int meaning) const;
   std::size_t betterMeaning(const Sums& sums, double max_misfit, double min_evidence) const;
+  std::size_t betterMeaning(const Sums& all) const;
 
   std::optional<Sample> first_, last_;
   Way integrated_m_{};

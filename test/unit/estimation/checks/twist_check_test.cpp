@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -122,6 +123,34 @@ TEST(TwistCheck, ABiasIsHardlyEverTakenForOtherAxesOnASlowFirstMetre) {
     alarms += is_accused;
   }
   EXPECT_LE(alarms, 16);
+}
+
+// Climbs or aligns slowly, then flies on at a heading near that of the frame, its velocity off to the side
+// for some seconds as a satellite receiver's is.
+TEST(TwistCheck, AWanderingVelocityIsNotTakenForAxesTurnedByASmallHeading) {
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    std::normal_distribution<double> step(0.0, 0.01 * std::sqrt(1.0 / 30.0));
+    const Eigen::Matrix3d R = geometry::yawRotation(0.2 + 0.25 * any(random));
+    const double slow_sec = 8.0 * any(random), wander_sec = 6.0 * any(random);
+    const double bias_mps = (any(random) < 0.5 ? -1.0 : 1.0) * (0.1 + 0.08 * any(random));
+    const Eigen::Vector3d slow(0.1 * any(random), 0.5 * any(random) - 0.25, 0.1 * any(random) - 0.05);
+    const Eigen::Vector3d on =
+        geometry::yawRotation(0.6 * any(random) - 0.3) * Eigen::Vector3d(0.3 + 0.5 * any(random), 0.0, 0.0);
+    TwistCheck check;
+    Eigen::Vector3d position(0, 0, 1);
+    for (int k = 0; k < 30 * 20; ++k) {
+      const double now_sec = k / 30.0;
+      const Eigen::Vector3d velocity = R * (now_sec < slow_sec ? slow : on);
+      const double part = std::clamp(std::min(now_sec - wander_sec, wander_sec + 8.0 - now_sec), 0.0, 1.0);
+      position += velocity / 30.0 + Eigen::Vector3d(step(random), step(random), 0.0);
+      check.add(now_sec, geometry::makePose(R, position),
+                velocity + R * Eigen::Vector3d(0.0, part * bias_mps, 0.0));
+      ASSERT_EQ(check.verdict().what.find("frame"), std::string::npos)
+          << seed << ": " << check.verdict().what;
+    }
+  }
 }
 
 TEST(TwistCheck, HoveringWithABiasIsNoFault) {
