@@ -23,6 +23,7 @@ std::string turnedText(const CameraTurn& camera) {
 
 void TargetEstimator::checkSize(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera) {
   if (!size_is_known_ || !last_.pose.estimate || !image.window->whole()) return;
+  checks_->parallax.assumeDrift(checks_->twist.driftMPerSqrtSec());
   checks_->parallax.see(image.stamp_sec, T_odom_camera.translation(),
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
@@ -87,9 +88,8 @@ const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
 // An extreme factor indicates wrong frames, not another window.
 std::optional<double> TargetEstimator::otherWindow() const {
   constexpr double kLargest = 5.0;
-  if (checks_->parallax.verdict() != ParallaxCheck::Verdict::kOther) return std::nullopt;
-  const double factor = checks_->parallax.factor();
-  return factor < kLargest && factor > 1.0 / kLargest ? std::optional(factor) : std::nullopt;
+  const auto factor = checks_->parallax.otherFactor();
+  return factor && *factor<kLargest&& * factor> 1.0 / kLargest ? factor : std::nullopt;
 }
 
 std::string TargetEstimator::approachForbidden(const FilteredWindow& window) const {

@@ -13,7 +13,7 @@ constexpr double kPlaceSigmaM = 0.015, kBearingSigmaRad = 0.005;  // of one imag
 constexpr double kSpanFactor = 1.5;  // noise of a line through both ends of a path, which others help little
 constexpr double kSigmas = 2.5;
 constexpr double kLateM = 0.15;  // motion and turn of the line of sight if odometry is 0.1 s late
-constexpr double kDriftMPerSqrtSec = 0.02, kTurnRadPerSqrtSec = 0.003;
+constexpr double kTurnRadPerSqrtSec = 0.003;
 constexpr double kOtherSlope = 0.35, kSameSlope = 0.5;
 
 }  // namespace
@@ -56,16 +56,11 @@ void ParallaxCheck::judge() {
   const double elapsed_sec = sights_.back().stamp_sec - sights_.front().stamp_sec;
   const double noise_m = std::hypot(kPlaceSigmaM, kBearingSigmaRad * distance_m);
   const double drift_m =
-      std::hypot(kDriftMPerSqrtSec, kTurnRadPerSqrtSec * distance_m) * std::sqrt(elapsed_sec);
+      std::hypot(drift_m_per_sqrt_sec_, kTurnRadPerSqrtSec * distance_m) * std::sqrt(elapsed_sec);
   const double moved_m = kSigmas * target_speed_mps_ * elapsed_sec;
   const double spread = (kLateM + moved_m + kSigmas * std::hypot(kSpanFactor * noise_m, drift_m)) / span_m;
-  if (std::abs(slope) - spread > kOtherSlope) {
-    verdict_ = Verdict::kOther;
-    factor_ = 1.0 / std::max(0.01, 1.0 - slope);
-  } else if (std::abs(slope) + spread < kSameSlope) {
-    verdict_ = Verdict::kAsSaid;
-    factor_ = 1.0 / (1.0 - slope);
-  }
+  if (std::abs(slope) - spread > kOtherSlope) other_factor_ = 1.0 / std::max(0.01, 1.0 - slope);
+  if (std::abs(slope) + spread < kSameSlope) other_factor_.reset();
 }
 
 }  // namespace window_ingress::estimation

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <deque>
+#include <optional>
 
 namespace window_ingress::estimation {
 
@@ -15,18 +17,19 @@ class ParallaxCheck {
   /// \param target_speed_mps speed at which the window itself may move; such motion proves nothing
   explicit ParallaxCheck(double target_speed_mps = 0.0) : target_speed_mps_(target_speed_mps) {}
 
-  enum class Verdict { kUndecided, kAsSaid, kOther };
-
+  /// Drift of odometry, per axis; 0.02 until told, and at least. [m/sqrt(s)]
+  void assumeDrift(double m_per_sqrt_sec) { drift_m_per_sqrt_sec_ = std::max(kLeastDrift, m_per_sqrt_sec); }
   /// Adds one image. \param camera_odom_m camera position \param window_odom_m the window's centre, computed
   /// with the stated size. Ignored if not finite, or not later than the last.
   void see(double stamp_sec, const Eigen::Vector3d& camera_odom_m, const Eigen::Vector3d& window_odom_m);
   /// Call for another window or another odometry frame.
   void clear() { *this = ParallaxCheck(target_speed_mps_); }
 
-  Verdict verdict() const { return verdict_; }
-  double factor() const { return factor_; }  ///< true size over the stated one; only with a verdict
+  /// True size over the stated one, if that is certainly another; until it is certainly the same.
+  std::optional<double> otherFactor() const { return other_factor_; }
 
  private:
+  static constexpr double kLeastDrift = 0.02;
   struct Sight {
     double stamp_sec;
     Eigen::Vector3d camera, window;
@@ -34,10 +37,9 @@ class ParallaxCheck {
   bool isNew(double stamp_sec, const Eigen::Vector3d& camera_odom_m) const;
   void judge();
 
-  double target_speed_mps_;
+  double target_speed_mps_, drift_m_per_sqrt_sec_ = kLeastDrift;
   std::deque<Sight> sights_;
-  Verdict verdict_ = Verdict::kUndecided;
-  double factor_ = 1.0;
+  std::optional<double> other_factor_;
 };
 
 }  // namespace window_ingress::estimation
