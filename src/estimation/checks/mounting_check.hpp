@@ -34,7 +34,7 @@ class MountingCheck {
   void startAnewForAnotherTarget(std::uint32_t seen_id);
   void clear();
   /// Sets the observed drift of odometry's position [m/sqrt(s)].
-  void assumeDrift(double m_per_sqrt_sec) { filter_.assumeDrift(m_per_sqrt_sec); }
+  void assumeDrift(double m_per_sqrt_sec) { filter_.assumeDrift(kWander * m_per_sqrt_sec); }
   void forgetPlaces();  ///< the odometry frame has changed; findings stay
   FramesVerdict verdict() const { return verdict_; }
 
@@ -42,6 +42,8 @@ class MountingCheck {
   const std::optional<SizeEstimate>& measuredSize() const { return measured_size_; }
 
  private:
+  /// A satellite receiver's errors last for seconds, so they grow faster than the random walk measured in one.
+  static constexpr double kWander = 1.6;
   static constexpr char kNothingYet[] = "camera mounting: not flown far enough yet";
   struct Image {
     detection::WindowObservation window;
