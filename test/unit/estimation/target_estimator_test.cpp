@@ -111,8 +111,8 @@ TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEs
                               const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
   TargetEstimator estimator(pose, estimation::FilterParams(), params);
   for (int i = 0; i <= 90; ++i) {
-    const double now = i / 30.0, y = 0.6 * now;
-    estimator.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
+    const double now = i / 30.0, y = 0.7 * now;
+    estimator.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.7 * velocity_factor, 0.0));
     estimator.addDetection(sighting(vehicleAt(y), now), kCamera, mounting_told);
   }
   return estimator;
