@@ -36,7 +36,10 @@ CameraInBody cameraInBody(const geometry::PinholeCamera& camera, const Eigen::Is
 
 std::string faultOf(const CameraInBody& camera) {
   const auto faults = parameters::outOfRange(camera);
-  return faults.empty() ? "" : "camera_info or mounting of the camera: " + parameters::joined(faults);
+  if (faults.empty()) return "";
+  return "camera_info or mounting of the camera: " + parameters::joined(faults) +
+         "; a field of view counts twice its narrower side of the body's forward axis: is the camera tilted "
+         "too far?";
 }
 
 std::string whyNotMounted(const Eigen::Isometry3d& T_base_camera, const VehicleParams& vehicle) {

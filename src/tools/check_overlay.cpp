@@ -224,7 +224,9 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
         [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { tools::overrideWindowSize(given(o.window_size), file, overlay); });
   const bool gives_opening = tools::givesOpening(overlay);
-  if (aspect > 0.0 && gives_opening) tools::checkAspect(aspect, overlay.homography_pose.pose);
+  if (aspect > 0.0 && gives_opening)
+    if (const auto other = tools::otherAspect(aspect, overlay.homography_pose.pose); !other.empty())
+      tools::warn(other);
   checkSpeeds(overlay);
   if (o.asksForSizes())
     faults.collect([&] { tools::checkOpeningIsGiven(overlay, o.needs_window_size == "true"); });

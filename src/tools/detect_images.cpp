@@ -195,6 +195,10 @@ Job prepare(const Options& o) {
     estimation::PoseParams params;
     tools::takeWindowSize("--window-size", o.size, params);
     if (job.camera) job.estimator.emplace(params);
+    if (job.reference && !corners.empty())
+      if (const auto other = tools::otherAspect(geometry::aspectRatio(job.reference->opening()), params);
+          !other.empty())
+        std::cerr << "detect_images: warning: " << other << "\n";
   }
   return job;
 }
@@ -212,9 +216,13 @@ bool isCutJpeg(const std::string& bytes) {
   return bytes.substr(bytes.size() - 2) != "\xFF\xD9";
 }
 
+bool fitsCamera(const cv::Mat& image, const Job& job) {
+  return job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
+}
+
 evaluation::DetectionRow process(const cv::Mat& image, const Job& job, WindowFinder& finder) {
   evaluation::DetectionRow row;
-  const bool fits = job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
+  const bool fits = fitsCamera(image, job);
   const auto start = Clock::now();
   row.window = finder.find(image, fits ? &*job.camera : nullptr);
   if (!row.window) row.reject_reason = detection::toString(finder.trace().outcome);
@@ -250,7 +258,7 @@ int run(const Options& o) {
   evaluation::OutputFile output(o.output, "file," + evaluation::detectionColumns() + finder.columns()),
       candidates;
   if (!o.candidates.empty()) candidates.open(o.candidates, "file," + evaluation::candidateColumns());
-  int unreadable = 0, found = 0, not_compared = 0;
+  int unreadable = 0, found = 0, not_compared = 0, other_size = 0;
   tools::Progress progress("detect_images", "images", images.size());
   for (const std::string& file : images) {
     const bool is_cut = isCutJpeg(tools::contentOf(file));
@@ -269,6 +277,7 @@ int run(const Options& o) {
                   << " is nearly black; 12 bits in a 16-bit file? then scale it\n";
       row = process(image, job, finder);
       found += row.window.has_value();
+      other_size += job.camera && !fitsCamera(image, job);
       not_compared += job.reference && row.window && !row.window->has_appearance;
       if (candidates.is_open()) {
         candidates << evaluation::candidateRows(evaluation::csvField(file), finder.trace());
@@ -281,6 +290,9 @@ int run(const Options& o) {
     output.finish();
     progress.passed();
   }
+  if (other_size > 0)
+    std::cerr << "detect_images: warning: " << other_size << " without lens and pose: not "
+              << job.camera->width << " x " << job.camera->height << " px, as --camera says\n";
   if (not_compared > 0)
     std::cerr << "detect_images: warning: " << not_compared
               << " found by geometry alone: image and reference must both have colours, or both none\n";

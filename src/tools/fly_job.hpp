@@ -54,7 +54,7 @@ inline OptionList describeFly(FlyOptions& o) {
       "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
       "flights under way end (--resume goes on with the others); 2: wrong usage");
   add.required("scenario", o.scenario, "scenario file, e.g. config/scenarios/nominal.yaml");
-  add.required("output,o", o.output, "folder for the results; made if missing");
+  add("output,o", o.output, "folder for the results; made if missing; needed unless --check");
   add("seeds", o.seeds, "A..B, a flight each");
   add("draws", o.draws,
       "csv file instead of --seeds: one flight per row, its seed and the position of each named key in its "
@@ -119,8 +119,23 @@ inline std::string onlyForNodes(const configuration::Overlay& overlay) {
   return keys.empty() ? "" : "not used, because no nodes run: " + parameters::joined(keys, ", ");
 }
 
+/// What has no effect, or another one, without images; empty: nothing.
+inline std::string notSimulated(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
+  static const std::regex kOfImages(
+      "window_detector/.*|ingress_navigator/navigator/commit/(glass|unverified_opening)");
+  std::vector<std::string> keys;
+  for (const std::string& key : overlay.given)
+    if (std::regex_match(key, kOfImages)) keys.push_back(key);
+  std::string text = keys.empty() ? "" : "not used with --no-pictures: " + parameters::joined(keys, ", ");
+  if (scenario.window.present && !scenario.window.isOpen())
+    text += (text.empty() ? "" : "; ") +
+            std::string("the window is closed, which nobody sees with --no-pictures");
+  return text;
+}
+
 inline FlyJob jobOf(const FlyOptions& o) {
   FlyJob job{o};
+  if (o.output.empty() && !o.check) throw InputError("--output is missing: a folder for the results");
   if (o.resume && o.overwrite) throw InputError("--resume and --overwrite: give one of them");
   if (job.holdsFlights() && !o.resume && !o.overwrite)
     throw InputError(o.output +
@@ -128,13 +143,14 @@ inline FlyJob jobOf(const FlyOptions& o) {
                      "replaces it, or give another folder");
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
-  if (!o.params.empty()) {
-    job.params = {configuration::readOverlay(o.params)};
-    const std::uint32_t seed = job.seeds.empty() ? 1U : job.seeds.front();  // a shard may be empty
-    for (const std::string& other :
-         {otherSizes(job.params, job.scenario(seed)), otherReference(job.params), onlyForNodes(job.params)})
-      if (!other.empty()) job.warnings.push_back(other);
-    for (const std::string& warning : job.warnings) std::cerr << "fly: warning: " << warning << "\n";
+  if (!o.params.empty()) job.params = {configuration::readOverlay(o.params)};
+  const auto scenario = job.scenario(job.seeds.empty() ? 1U : job.seeds.front());  // a shard may be empty
+  for (const std::string& warning :
+       {otherSizes(job.params, scenario), otherReference(job.params), onlyForNodes(job.params),
+        o.no_pictures ? notSimulated(job.params, scenario) : ""}) {
+    if (warning.empty()) continue;
+    job.warnings.push_back(warning);
+    std::cerr << "fly: warning: " << warning << "\n";
   }
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);

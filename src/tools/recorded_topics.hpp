@@ -62,6 +62,7 @@ inline void checkPlayed(const std::string& files, const std::string& played) {
       if (!is_aside && argument.find(name + ":=") != std::string::npos)
         others += (others.empty() ? ": give " : " or ") + argument;
     }
+    if (types.count(topic + "/compressed") > 0) others = ": give image_transport:=compressed";
     if (!others.empty()) faults.push_back("replay.launch: no " + topic + " in " + files + others);
   }
   if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));

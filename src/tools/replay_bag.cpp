@@ -89,6 +89,11 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   if (params.with_pose && params.topics.odom.empty())
     say("no odometry in the bag: poses of single images only");
   if (!o.size.empty()) tools::takeWindowSize("--window-size", o.size, params.homography_pose.pose);
+  if (params.with_pose && !reference.corners.empty())
+    if (const auto other = tools::otherAspect(geometry::aspectRatio(params.reference->opening()),
+                                              params.homography_pose.pose);
+        !other.empty())
+      say("warning: " + other);
   return params;
 }
 

@@ -28,10 +28,6 @@ inline bool givesOpening(const configuration::Overlay& overlay) {
   return overlay.gives(kOpening[0]) && overlay.gives(kOpening[1]);
 }
 
-// "1.2 x 1 m"
-inline std::string sizeOf(const estimation::PoseParams& opening) {
-  return formatted("%g x %g m", opening.opening_width_m, opening.opening_height_m);
-}
 inline std::string sizeOf(const Eigen::Vector3d& half) {
   return formatted("%g x %g x %g m", 2.0 * half.x(), 2.0 * half.y(), 2.0 * half.z());
 }
@@ -84,17 +80,6 @@ inline configuration::Overlay flownIn(const simulation::Scenario& scenario, cons
   configuration::Overlay overlay = configuration::readOverlay(file);
   evaluation::tellSizes(scenario, overlay, overlay.vehicle, overlay.homography_pose.pose);
   return overlay;
-}
-
-// Detects width and height exchanged, or one of them misread. An oblique view differs by less.
-inline void checkAspect(double in_image, const estimation::PoseParams& opening) {
-  constexpr double kMaxRatio = 1.25;
-  const double given = opening.opening_width_m / opening.opening_height_m;
-  if (opening.scale_sigma > 0.0 || std::max(in_image / given, given / in_image) <= kMaxRatio) return;
-  warn("the opening, " + sizeOf(opening) +
-       formatted(", is %.3g times as wide as it is high, but %.3g times in the reference image: measure both "
-                 "sides and check the corners",
-                 given, in_image));
 }
 
 /// Takes the argument; warns where it overrides the file.

@@ -103,12 +103,17 @@ class Desk {
     for (;;) {
       show();
       const int key = cv::waitKey(30) & 0xff;
-      if (key == 'q' || key == 27) return 0;
+      if (key == 'q' || key == 27) return quit();
       press(static_cast<char>(key));
     }
   }
 
  private:
+  int quit() const {
+    if (is_changed_) std::cout << "the last changes were not saved" << std::endl;
+    return 0;
+  }
+
   struct Bar {
     const Field* field;
     tools::Slider slider;
@@ -127,7 +132,7 @@ class Desk {
     const auto unit = tools::unitOf(bar.field->name);
     std::cout << bar.field->name << ": " << parameters::toText(*bar.field) << (unit.empty() ? "" : " " + unit)
               << std::endl;
-    bar.desk->dirty_ = true;
+    bar.desk->dirty_ = bar.desk->is_changed_ = true;
     bar.desk->bench_.changed();
   }
 
@@ -152,7 +157,7 @@ class Desk {
     if (key == 'g' || key == 'G') open(group_ + (key == 'g' ? 1 : -1));
     if (key == 'n' || key == 'p') source_.step(key == 'n' ? 1 : -1), dirty_ = true;
     if (key == 'd') restoreDefaults();
-    if (key == 's') save(job_.output, bench_);
+    if (key == 's') save(job_.output, bench_), is_changed_ = false;
     if (key == 'h') std::cout << kKeys << std::endl;
   }
 
@@ -160,6 +165,7 @@ class Desk {
     detection::DetectorParams defaults;
     const auto fields = parameters::fieldsOf(defaults);
     for (const Bar& bar : bars_) bar.field->set(parameters::find(fields, bar.field->name)->get());
+    is_changed_ = true;
     bench_.changed();
     open(group_);
   }
@@ -186,7 +192,8 @@ class Desk {
   std::vector<std::string> groups_;
   std::vector<Bar> bars_;
   int group_ = 0;
-  bool dirty_ = true;
+  bool dirty_ = true;        ///< what is shown is not up to date
+  bool is_changed_ = false;  ///< since the last save
 };
 
 int run(Job job) {
@@ -200,6 +207,8 @@ int run(Job job) {
   for (const std::string& setting : job.settings) parameters::assign(fields, setting);
   std::optional<detection::ReferenceAppearance> reference;
   if (!job.reference.picture.empty()) reference = adapters::loadReference(job.reference, start);
+  if (const auto doubt = tools::doubtOf(job.reference.picture, job.reference.corners); !doubt.empty())
+    std::cerr << "tune_detector: warning: " << doubt << "\n";
   const auto source = tools::openSource(job.source, job.topic, job.every, job.most);
   Bench bench(start, reference);
   if (job.headless) return runHeadless(job, *source, bench);

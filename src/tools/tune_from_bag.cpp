@@ -1,5 +1,6 @@
 /// Fits detector thresholds to images with known windows, and reports the benefit on other images. See
 /// --help.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -103,6 +104,20 @@ std::string diff(const detection::DetectorParams& start, const detection::Detect
   return text;
 }
 
+struct Judged {
+  DetectionCounts tuned_on, held_out;
+  double milliseconds;  ///< an image held out
+};
+
+Judged judge(const Images& tuning, const Images& held, const detection::DetectorParams& params,
+             const detection::ReferenceAppearance* reference) {
+  const auto begun = std::chrono::steady_clock::now();
+  const DetectionCounts held_out = evaluation::countDetections(held, params, reference);
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begun;
+  return {evaluation::countDetections(tuning, params, reference), held_out,
+          spent.count() / std::max<double>(1.0, held.size())};
+}
+
 int run(const Job& job) {
   check(job);
   adapters::ReferenceParams wanted = job.reference;
@@ -111,6 +126,8 @@ int run(const Job& job) {
   std::optional<detection::ReferenceAppearance> reference;
   if (!wanted.picture.empty()) reference = adapters::loadReference(wanted, start);
   const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;
+  if (const auto doubt = tools::doubtOf(wanted.picture, wanted.corners); !doubt.empty())
+    std::fprintf(stderr, "tune_from_bag: warning: %s\n", doubt.c_str());
 
   const auto [tuning, held] = evaluation::split(read(job), job.held_out, job.seed);
   std::printf("%zu images to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(), held.size(),
@@ -129,21 +146,24 @@ int run(const Job& job) {
   };
   const detection::DetectorParams tuned = evaluation::tuneDetector(tuning, start, given, search, progress);
 
-  const DetectionCounts before = evaluation::countDetections(held, start, given);
-  const DetectionCounts after = evaluation::countDetections(held, tuned, given);
-  std::printf("tuned on, before: %s\ntuned on, after:  %s\n",
-              evaluation::countDetections(tuning, start, given).text().c_str(),
-              evaluation::countDetections(tuning, tuned, given).text().c_str());
-  std::printf("held out, before: %s\nheld out, after:  %s\n", before.text().c_str(), after.text().c_str());
+  const Judged before = judge(tuning, held, start, given), after = judge(tuning, held, tuned, given);
+  std::printf("tuned on, before: %s\ntuned on, after:  %s\n", before.tuned_on.text().c_str(),
+              after.tuned_on.text().c_str());
+  std::printf("held out, before: %s, %.1f ms an image\nheld out, after:  %s, %.1f ms an image\n",
+              before.held_out.text().c_str(), before.milliseconds, after.held_out.text().c_str(),
+              after.milliseconds);
   const std::string changes = diff(start, tuned);
   std::printf("%s", changes.c_str());
-  if (changes.empty() || after.f1() <= before.f1()) {
-    std::printf("%s: nothing written\n",
-                changes.empty() ? "no setting was better" : "not better on the images held out");
+  const bool is_better = after.tuned_on.f1() > before.tuned_on.f1();
+  if (changes.empty() || !is_better || after.held_out.f1() <= before.held_out.f1()) {
+    std::printf("%s: nothing written\n", changes.empty() || !is_better ? "no setting was better"
+                                                                       : "not better on the images held out");
     return 1;
   }
-  tools::saveParams(job.output,
-                    "tune_from_bag. Held out: " + after.text() + "; before: " + before.text() + ".", tuned);
+  tools::saveParams(
+      job.output,
+      "tune_from_bag. Held out: " + after.held_out.text() + "; before: " + before.held_out.text() + ".",
+      tuned);
   std::printf("written: %s\n", job.output.c_str());
   return 0;
 }

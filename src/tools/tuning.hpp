@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -58,6 +59,7 @@ class StoredImages : public TuningSource {
 class Camera : public TuningSource {
  public:
   explicit Camera(const std::string& topic) : topic_(topic) {
+    std::cout << "waiting for images on " << topic << " or " << topic << "/compressed" << std::endl;
     raw_ = nh_.subscribe<sensor_msgs::Image>(topic, 1, [this](const sensor_msgs::ImageConstPtr& message) {
       take(adapters::decode(message, adapters::ImageLimits{}));
     });
@@ -85,7 +87,10 @@ class Camera : public TuningSource {
 
 inline void addFile(const std::filesystem::path& path, StoredImages& images) {
   const cv::Mat image = evaluation::imageOrNone(path);
-  if (!image.empty()) images.add(path.filename().string(), image);
+  if (image.empty())
+    std::cerr << "tune_detector: " << path.string() << ": cannot be read as an image; skipped\n";
+  else
+    images.add(path.filename().string(), image);
 }
 
 /// \param source image, folder, bag, or the name of a topic
@@ -106,7 +111,7 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
     for (const auto& entry : fs::directory_iterator(source)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files)
-      if (cv::haveImageReader(file.string())) addFile(file, *images);
+      if (fs::is_regular_file(file)) addFile(file, *images);
   } else if (fs::path(source).extension() == ".bag") {
     rosbag::Bag bag;
     adapters::openBag(bag, source);

@@ -122,7 +122,7 @@ def test_what_engages_is_named_where_it_hangs_or_is_not_alone(doctor, capsys, pu
     ("ABORTED: odometry sinks where the vehicle is told to climb, or climbs where told to sink: setpoints and odometry differ in axes, here z, which "
      "must point up", "take over; odometry must be ENU"),
     ("ABORTED: aborted: unknown to the ROS master, which was restarted: take over", "take over by the pilot's switch, end all launches"),
-    ("/odom (1 publisher): twist is all zero while the position moves", "let the odometry's driver fill in"),
+    ("/odom (1 publisher): twist is zero while the position moves", "let the odometry's driver fill in"),
     ("APPROACH: odometry: position and velocity disagree by 0.40 m/s", "twist must be the velocity"),
     ("more than one source on /engaged: follows setpoints", "scripts/run rostopic info names them"),
     ("the autopilot does not follow setpoints: armed, mode OFFBOARD (it follows in GUIDED)", "px4.launch is for PX4"),

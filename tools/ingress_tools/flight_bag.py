@@ -20,6 +20,8 @@ def read_bag(file, topics):
             messages = {name: [] for name in KINDS}
             for topic, message, _ in bag.read_messages(topics=[topic for topic in chosen.values() if topic]):
                 messages[next(name for name, own in chosen.items() if own == topic)].append(message)
+            if bag.get_message_count() == 0:
+                raise DataError(f"{file}: holds no message; rosbag records none where less than 1 GB of the disk is free")
     except (OSError, rosbag.ROSBagException) as error:
         raise DataError(f"{file}: {error or type(error).__name__}; if it was not closed, mend it with 'rosbag reindex'") \
             from error

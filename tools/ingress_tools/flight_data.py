@@ -45,7 +45,7 @@ class Flight:
     time, x, y, z, heading, speed: of the vehicle, arrays; heading against the window's axis [rad].
     states: (time, name) of each step. images: see Images. filtered: (times, relative angle by the filter [rad]).
     predicted_miss: three sigma at the last commit [m], or None. window_size: (width, height) [m], or None.
-    reason: of the last state. verdict: of the simulated world's referee, or empty.
+    reason: of the last state. verdict: of the simulated world's referee, or empty. is_part: begin or end was cut off.
     """
 
     def __init__(self, file, motion, states, images, filtered=((), ())):
@@ -56,7 +56,7 @@ class Flight:
         self.states = states
         self.filtered = tuple(np.array(column, float) for column in filtered)
         self.predicted_miss, self.window_size = None, None
-        self.reason, self.verdict = "", ""
+        self.reason, self.verdict, self.is_part = "", "", False
 
     def at(self, times, values):
         return np.interp(times, self.time, values)
@@ -95,6 +95,9 @@ class Flight:
                               f"{self.time[0]:.1f} to {self.time[-1]:.1f} s")
         for name in ("time", "x", "y", "z", "heading", "speed"):
             setattr(self, name, getattr(self, name)[keep])
+        self.is_part = True
+        if end < self.states[-1][0]:
+            self.reason = self.verdict = ""
         inside = [(time, name) for time, name in self.states if begin <= time <= end]
         before = [name for time, name in self.states if time < begin]
         self.states = [(self.time[0], before[-1])] + inside if before else inside or self.states[:1]

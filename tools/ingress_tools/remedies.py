@@ -25,7 +25,7 @@ REMEDIES = (
     ("no odometry near the exposure", "odometry and images must be stamped by one clock (MAVROS's timesync, chrony), and odometry may come "
                                       "later than the images by homography_pose/odom_wait_sec; in a replay rosbag decompress, or rate:=0.3"),
     ("holds the vehicle", "a larger limits/fence_radius_m, or start nearer to the window"),
-    ("twist is all zero", "let the odometry's driver fill in twist.twist.linear, in the axes of child_frame_id; a motion-capture bridge that has no "
+    ("twist is zero", "let the odometry's driver fill in twist.twist.linear, in the axes of child_frame_id; a motion-capture bridge that has no "
                           "velocity: the estimator's odometry instead (EKF2 of PX4, EKF3 of ArduPilot, by MAVROS)"),
     ("position and velocity disagree", "scripts/run rostopic echo -n1 the odometry in flight: twist must be the velocity, in the axes of child_frame_id; "
                                        "propellers off: scripts/ingress check-frames --by-hand --odom ITS_TOPIC"),

@@ -18,6 +18,11 @@ def world_waits(system, report):
     return refuses or any(finding.level == "ERROR" for finding in report.findings)
 
 
+def waits_for_estimator(topic):
+    return ("wait until the autopilot's estimator runs, up to 90 s after power-on; ArduPilot then needs scripts/run rosservice call "
+            f"{topic.split('/mavros/')[0]}/mavros/set_stream_rate 0 50 1")
+
+
 def check_input(system, report, topic, kind, readers):
     publishers = system.graph.publishers.get(topic, [])
     sample = system.samples[topic]
@@ -30,7 +35,9 @@ def check_input(system, report, topic, kind, readers):
     elif type_ not in (kind, "*"):
         report.error(f"{topic}: is a {type_}, {readers} reads {kind}", another_topic(system, topic, kind), [topic], **place)
     elif not sample.times:
-        report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", f"if it plays a file, that is over; else read what it says on its console or in ~/.ros/log, and start it again",
+        mend = (waits_for_estimator(topic) if "/mavros/" in topic else
+                "if it plays a file, that is over; else read what it says on its console or in ~/.ros/log, and start it again")
+        report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", mend,
                      [topic], **place)
     elif len(publishers) > 1:
         report.error(f"{topic}: {len(publishers)} publishers: {', '.join(publishers)}", f"stop one of them: scripts/run rosnode kill {publishers[-1]}",
@@ -74,7 +81,8 @@ def check_mavros(system, report, topics):
                      f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE", [*topics, engaged, f"{namespace}/state"])
     else:
         report.error(f"MAVROS sends nothing on {listed}: has it an autopilot?",
-                     f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS", [*topics, engaged, f"{namespace}/state"])
+                     f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS; "
+                     f"if it is: {waits_for_estimator(topics[0])}", [*topics, engaged, f"{namespace}/state"])
     return topics
 
 

@@ -4,7 +4,6 @@
 
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/inputs/camera_source.hpp"
-#include "adapters/inputs/empty_twist.hpp"
 #include "adapters/nodes.hpp"
 #include "adapters/pose/pose_health.hpp"
 #include "adapters/pose/pose_publisher.hpp"
@@ -13,6 +12,7 @@
 #include "adapters/runtime/parameter_server.hpp"
 #include "adapters/runtime/services.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
+#include "window_ingress/navigation/empty_twist.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -263,7 +263,7 @@ class PoseNode : public Node {
   std::optional<TopicInput> imu_;
   std::optional<Lockstep> lockstep_;
   estimation::SenderClock odom_clock_;
-  EmptyTwist twist_;
+  navigation::EmptyTwist twist_;
   ClockWatch clock_;
   CameraSource camera_;
   estimation::TargetEstimator estimator_;

@@ -32,8 +32,8 @@ constexpr double kMinEvidence = 12.0;        // for another meaning [nats]
 // Exact odometry: the other meaning fits better than a bias could make it.
 constexpr double kMaxExactMisfit = 0.15, kMinExactEvidence = 8.0;
 // Axes turned by a small heading look like a velocity that is off to the side for some seconds, as a
-// satellite receiver's is.
-constexpr double kLeastTurnedErrorMps = 0.25;
+// satellite receiver's is. Within this turn so small an error is no proof of them.
+constexpr double kSmallTurnRad = 0.38, kLeastTurnedErrorMps = 0.2;
 constexpr std::size_t kLastTurned = 2;  // meaning; the one before it is turned by the heading, too
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
@@ -91,6 +91,7 @@ void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
   piece.variance = 2.0 * square(kJitterM) + square(kVelocityDriftMPerSqrtSec) * sec +
                    square(kScale * piece.way_m) + square(kLateSec * changed_mps);
   piece.sec = sec;
+  piece.turn_rad = Eigen::AngleAxisd(first_->R_odom_base).angle();
   for (int k = 0; k < kMeanings; ++k)
     piece.error_base_m[k] = first_->R_odom_base.transpose() * (integrated_m_[k] - moved_m);
   pieces_.push_back(piece);
@@ -143,8 +144,9 @@ TwistCheck::Sums TwistCheck::sums(double bias_sigma_mps) const {
       if (k == 0) sums.own_squares += std::min(squares, kMaxOwnSquares);
     }
     sums.error_mps += square(piece.error_base_m[0].norm() / piece.sec) / static_cast<double>(pieces_.size());
+    sums.turn_rad += square(piece.turn_rad) / static_cast<double>(pieces_.size());
   }
-  sums.error_mps = std::sqrt(sums.error_mps);
+  sums.error_mps = std::sqrt(sums.error_mps), sums.turn_rad = std::sqrt(sums.turn_rad);
   return sums;
 }
 
@@ -161,7 +163,8 @@ std::size_t TwistCheck::betterMeaning(const Sums& sums, double max_misfit, doubl
 std::size_t TwistCheck::betterMeaning(const Sums& all) const {
   const std::size_t exact = betterMeaning(sums(kNoBiasMps), kMaxExactMisfit, kMinExactEvidence);
   const std::size_t better = exact > 0 ? exact : betterMeaning(all, kMaxOtherMisfit, kMinEvidence);
-  return better <= kLastTurned && all.error_mps < kLeastTurnedErrorMps ? 0 : better;
+  const bool is_vague = all.turn_rad < kSmallTurnRad && all.error_mps < kLeastTurnedErrorMps;
+  return better <= kLastTurned && is_vague ? 0 : better;
 }
 
 void TwistCheck::judge() {

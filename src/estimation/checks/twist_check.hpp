@@ -42,17 +42,18 @@ class TwistCheck {
     Way velocity_mps;
   };
   struct Piece {
-    double way_m;     ///< by position or by velocity, whichever is longer
-    double variance;  ///< of their difference per axis, for odometry with strong drift [m^2]
-    double sec;
+    double way_m;          ///< by position or by velocity, whichever is longer
+    double variance;       ///< of their difference per axis, for odometry with strong drift [m^2]
+    double sec, turn_rad;  ///< duration; angle between body's and odometry's axes
     Way error_base_m;  ///< integrated velocity less the way flown, in the body's axes at the piece's start
   };
   struct Sums {
     double way_m = 0.0, squares = 0.0;           ///< of the way itself
     std::array<double, kMeanings> misfits = {};  ///< of the errors; all weighted by the variances
     // Of the velocity as reported:
-    double own_squares = 0.0, bias_mps = 0.0, error_mps = 0.0;  ///< error: root mean square of the pieces
-    double misfit() const;                                      ///< relative
+    double own_squares = 0.0, bias_mps = 0.0;
+    double error_mps = 0.0, turn_rad = 0.0;  ///< root mean square of the pieces
+    double misfit() const;                   ///< relative
   };
   void startAt(const Sample& now);
   void closePiece(const Eigen::Vector3d& moved_m);

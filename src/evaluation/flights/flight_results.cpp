@@ -83,6 +83,10 @@ std::string replaced(std::string text, char old, char by) {
   return text;
 }
 
+nlohmann::json quantileOrNull(const std::vector<double>& values, double fraction) {
+  return values.empty() ? nlohmann::json() : nlohmann::json(quantile(values, fraction));
+}
+
 }  // namespace
 
 std::map<std::string, int> causesOf(const std::vector<FlightResult>& flights) {
@@ -119,10 +123,10 @@ std::string toJson(const std::vector<FlightResult>& flights, const CampaignFacts
                             {"pass_rate_high_95", rate.high},
                             {"outcomes", outcomes},
                             {"causes", causesOf(flights)},
-                            {"median_time_s", quantile(times, 0.5)},
-                            {"p95_time_s", quantile(times, 0.95)},
-                            {"p95_offset_m", quantile(offsets, 0.95)},
-                            {"p95_wrong_side_m", quantile(wrong_sides, 0.95)}};
+                            {"median_time_s", quantileOrNull(times, 0.5)},
+                            {"p95_time_s", quantileOrNull(times, 0.95)},
+                            {"p95_offset_m", quantileOrNull(offsets, 0.95)},
+                            {"p95_wrong_side_m", quantileOrNull(wrong_sides, 0.95)}};
   return json.dump(2) + "\n";
 }
 

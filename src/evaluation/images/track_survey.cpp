@@ -139,7 +139,7 @@ std::string TrackSummary::markdown(const std::string& name) const {
         "| " + name + " | " +
         (i == 0 ? formatted("over %g m", kFrom_m[0]) : formatted("%g to %g m", kFrom_m[i - 1], kFrom_m[i])) +
         " | " + std::to_string(frames);
-    for (const int count : counts) text += formatted(" | %.1f", 100.0 * count / std::max(1, frames));
+    for (const int count : counts) text += frames > 0 ? formatted(" | %.1f", 100.0 * count / frames) : " | ";
     text += corners.frames() > 0
                 ? formatted(" | %.3f, %.3f | %+.3f", corners.rms().x(), corners.rms().y(), corners.outward())
                 : " | | ";

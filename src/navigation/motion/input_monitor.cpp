@@ -158,6 +158,7 @@ std::string InputMonitor::takeSample(const VehicleState& sample, bool is_newer, 
   const bool is_stuck = is_newer && isStuck(sample);
   vehicle_ = sample;
   if (is_stuck) return formatted("odometry stuck for %.2f s", sample.stamp_sec - unchanged_since_sec_);
+  if (const std::string empty = empty_twist_.look(sample); !empty.empty()) return "odometry: its " + empty;
   return "";
 }
 

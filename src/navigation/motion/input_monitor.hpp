@@ -5,6 +5,7 @@
 #include <string>
 
 #include "navigation/motion/continuous_odometry.hpp"
+#include "window_ingress/navigation/empty_twist.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 
@@ -77,6 +78,7 @@ class InputMonitor {
   double arrived_sec_ = 0.0;             ///< time of its arrival
   std::optional<VehicleState> smooth_;   ///< the same sample in the jump-free frame
   ContinuousOdometry odometry_;
+  EmptyTwist empty_twist_;
   std::optional<TargetEstimate> target_;
   std::optional<TargetEstimate> moved_target_;  ///< disagrees with `target_`; accepted if it persists
   double moved_since_sec_ = 0.0;

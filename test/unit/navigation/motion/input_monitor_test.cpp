@@ -54,6 +54,19 @@ TEST(InputMonitor, AgeCountsInBothDirections) {
   EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image in window_pose 2.41 s old");
 }
 
+TEST(InputMonitor, APositionThatMovesWithoutAVelocityIsNoOdometryToFlyBy) {
+  auto judge = monitor();
+  std::string fault;
+  for (int i = 0; i < 50; ++i) {
+    auto input = inputAt(kThere + Eigen::Vector3d(0.02 * i, 0, 0), 10.0 + 0.02 * i);
+    input.vehicle->velocity_odom_mps.setZero();
+    const auto situation = judge.judge(input, 10.0 + 0.02 * i);
+    EXPECT_EQ(situation.vehicle.has_value(), situation.vehicle_fault.empty());
+    fault = situation.vehicle_fault;
+  }
+  EXPECT_EQ(fault, "odometry: its twist is zero while the position moves");
+}
+
 // Late odometry still describes the motion since its stamp, so it is used. Missing odometry says nothing.
 TEST(InputMonitor, OdometryThatComesLateIsFlownByOneThatStaysAwayIsNot) {
   constexpr double kStep = 0.03;

@@ -1,0 +1,37 @@
+#include "window_ingress/navigation/empty_twist.hpp"
+
+#include <gtest/gtest.h>
+
+namespace window_ingress::navigation::empty_twist_test {
+
+TEST(EmptyTwist, IsOneWhosePositionMovesWithoutAVelocity) {
+  EmptyTwist twist;
+  VehicleState vehicle;
+  const auto lookAt = [&](double stamp_sec, double x_m, double speed_mps) {
+    vehicle.stamp_sec = stamp_sec;
+    vehicle.T_odom_base.translation() = Eigen::Vector3d(x_m, 0.0, 1.0);
+    vehicle.velocity_odom_mps = Eigen::Vector3d(0.0, speed_mps, 0.4);  // the height's velocity is there
+    return twist.look(vehicle);
+  };
+  EXPECT_EQ(lookAt(0.0, 0.0, 0.0), "");
+  EXPECT_EQ(lookAt(0.2, 0.15, 0.0), "");
+  EXPECT_EQ(lookAt(0.4, 0.29, 0.0), "") << "a position that is not sure";
+  EXPECT_NE(lookAt(0.6, 0.31, 0.0), "");
+  EXPECT_NE(lookAt(9.0, 0.0, 0.0), "") << "where it has come back to";
+  EXPECT_EQ(lookAt(9.1, 5.0, 0.02), "") << "a velocity after all";
+  EXPECT_EQ(lookAt(9.2, 9.0, 0.0), "") << "a jump";
+  EXPECT_EQ(lookAt(9.4, 9.19, 0.0), "");
+  EXPECT_NE(lookAt(9.6, 9.38, 0.0), "");
+}
+
+TEST(EmptyTwist, IsNoneOfAVehicleThatStandsAndWhosePositionWanders) {
+  EmptyTwist twist;
+  VehicleState vehicle;
+  for (int i = 0; i < 3000; ++i) {
+    vehicle.stamp_sec = i / 50.0;
+    vehicle.T_odom_base.translation().x() = 0.09 * vehicle.stamp_sec;
+    EXPECT_EQ(twist.look(vehicle), "");
+  }
+}
+
+}  // namespace window_ingress::navigation::empty_twist_test
