@@ -3,7 +3,7 @@
 namespace window_ingress::detection {
 
 struct PreprocessParams {
-  int search_side_px = 480;    ///< the search runs on the first pyramid level that is no longer than this
+  int search_side_px = 480;    ///< the image is halved for the search until it is no longer than this
                                ///< [px]
   double blur_sigma_px = 0.4;  ///< sigma of the Gaussian blur on the search level; 0: none [px]
   bool equalise = false;       ///< equalise the histogram of the search level with limited contrast
@@ -136,8 +136,9 @@ struct DetectorParams {
   AppearanceParams appearance;
   TrackParams track;
   int max_candidates = 40;  ///< number of best candidates compared with each other and with the reference
-  double min_score = 0.4;   ///< least score of a detection
-  double min_score_reference = 0.5;  ///< least score of a detection that was compared with a reference
+  double min_score = 0.4;   ///< least score of a candidate of the search by borders, without a reference
+  double min_score_reference = 0.5;  ///< the same, compared with a reference; places found by correlation
+                                     ///< need `min_correlation` instead
   double min_correlation = 0.58;     ///< least correlation of the target's surroundings with the reference
 
   template <typename Self, typename Visitor>

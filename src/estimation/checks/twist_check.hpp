@@ -19,7 +19,7 @@ namespace window_ingress::estimation {
 /// if even poor odometry cannot explain the difference: odometry with strong drift, a constant velocity error
 /// (fixed in the body, as estimators have it) and occasional slides.
 ///
-/// At a heading within some 17 degrees of zero, body and world axes differ too little to matter.
+/// At a heading within some 20 degrees of zero, body and world axes differ too little to matter in slow flight.
 class TwistCheck {
  public:
   /// \param velocity_odom_mps computed from the reported velocity, assuming body axes
