@@ -1,9 +1,11 @@
 /// Output files that report an incomplete write. Their folder is made if it is missing.
 #pragma once
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -54,6 +56,12 @@ inline void writeText(const std::filesystem::path& file, const std::string& text
   OutputFile output(file);
   output << text;
   output.finish();
+}
+
+/// By the end of its name.
+inline bool looksLikeImage(const std::filesystem::path& file) {
+  static const std::set<std::string> kKnown{".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"};
+  return kKnown.count(boost::to_lower_copy(file.extension().string())) > 0;
 }
 
 /// An image as viewers show it: turned by the orientation that its camera has noted; empty if the file cannot

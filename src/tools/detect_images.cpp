@@ -1,12 +1,10 @@
 /// Finds the window in single images; one csv row per image. See --help.
 #include <algorithm>
-#include <boost/algorithm/string/case_conv.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -111,11 +109,6 @@ tools::OptionList describe(Options& o) {
 
 constexpr double kNearlyBlackGrey = 16.0;  // brightest value: 12 bits, read as the lower of 16
 
-bool looksLikeImage(const fs::path& path) {
-  static const std::set<std::string> kKnown{".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"};
-  return kKnown.count(boost::to_lower_copy(path.extension().string())) > 0;
-}
-
 // A file with another name would be an image or a parameter file, which would be lost.
 void checkTable(const char* option, const std::string& file) {
   const std::string extension = fs::path(file).extension().string();
@@ -144,7 +137,7 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
     std::vector<std::string> found, others;
     for (const auto& entry : fs::directory_iterator(input))
       if (entry.is_regular_file())
-        (looksLikeImage(entry.path()) ? found : others).push_back(entry.path().string());
+        (evaluation::looksLikeImage(entry.path()) ? found : others).push_back(entry.path().string());
     if (found.empty()) throw InputError(input + ": no image in this folder; folders in it are not searched");
     if (!others.empty())
       std::cerr << "detect_images: " << input << ": left out " << others.size()

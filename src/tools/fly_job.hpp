@@ -122,7 +122,7 @@ inline std::string onlyForNodes(const configuration::Overlay& overlay) {
 /// What has no effect, or another one, without images; empty: nothing.
 inline std::string notSimulated(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
   static const std::regex kOfImages(
-      "window_detector/.*|ingress_navigator/navigator/commit/(glass|unverified_opening)");
+      "window_detector/(detector|interior)/.*|ingress_navigator/navigator/commit/(glass|unverified_opening)");
   std::vector<std::string> keys;
   for (const std::string& key : overlay.given)
     if (std::regex_match(key, kOfImages)) keys.push_back(key);

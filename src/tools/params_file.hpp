@@ -18,10 +18,11 @@ constexpr const char* kGuessedOpening =
     "the opening in the reference image is guessed, often wrongly: give its corners; 'ingress reference' "
     "finds and writes them";
 
+constexpr const char* kAnyWindow = "no --reference: any window counts, also one that is not the target";
+
 /// Why windows found may be others than the target; empty: they are not.
 inline std::string doubtOf(const std::string& reference, const std::vector<double>& corners) {
-  if (reference.empty()) return "no --reference: any window counts, also one that is not the target";
-  return corners.empty() ? kGuessedOpening : "";
+  return reference.empty() ? kAnyWindow : corners.empty() ? kGuessedOpening : "";
 }
 
 /// Takes the reference from the file, unless options give one. \throws InputError

@@ -207,10 +207,10 @@ int run(Job job) {
   for (const std::string& setting : job.settings) parameters::assign(fields, setting);
   std::optional<detection::ReferenceAppearance> reference;
   if (!job.reference.picture.empty()) reference = adapters::loadReference(job.reference, start);
-  if (const auto doubt = tools::doubtOf(job.reference.picture, job.reference.corners); !doubt.empty())
-    std::cerr << "tune_detector: warning: " << doubt << "\n";
   const auto source = tools::openSource(job.source, job.topic, job.every, job.most);
   Bench bench(start, reference);
+  if (const auto doubt = tools::doubtOf(job.reference.picture, job.reference.corners); !doubt.empty())
+    std::cout << "warning: " << doubt << std::endl;
   if (job.headless) return runHeadless(job, *source, bench);
   if (!tools::hasDisplay())
     throw InputError("there is no display for the trackbars; --headless --set NAME=VALUE does without");

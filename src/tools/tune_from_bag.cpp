@@ -126,8 +126,6 @@ int run(const Job& job) {
   std::optional<detection::ReferenceAppearance> reference;
   if (!wanted.picture.empty()) reference = adapters::loadReference(wanted, start);
   const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;
-  if (const auto doubt = tools::doubtOf(wanted.picture, wanted.corners); !doubt.empty())
-    std::fprintf(stderr, "tune_from_bag: warning: %s\n", doubt.c_str());
 
   const auto [tuning, held] = evaluation::split(read(job), job.held_out, job.seed);
   std::printf("%zu images to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(), held.size(),
@@ -146,6 +144,8 @@ int run(const Job& job) {
   };
   const detection::DetectorParams tuned = evaluation::tuneDetector(tuning, start, given, search, progress);
 
+  if (const auto doubt = tools::doubtOf(wanted.picture, wanted.corners); !doubt.empty())
+    std::fprintf(stderr, "tune_from_bag: warning: %s\n", doubt.c_str());
   const Judged before = judge(tuning, held, start, given), after = judge(tuning, held, tuned, given);
   std::printf("tuned on, before: %s\ntuned on, after:  %s\n", before.tuned_on.text().c_str(),
               after.tuned_on.text().c_str());

@@ -111,7 +111,7 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
     for (const auto& entry : fs::directory_iterator(source)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files)
-      if (fs::is_regular_file(file)) addFile(file, *images);
+      if (evaluation::looksLikeImage(file)) addFile(file, *images);
   } else if (fs::path(source).extension() == ".bag") {
     rosbag::Bag bag;
     adapters::openBag(bag, source);

@@ -51,6 +51,20 @@ def test_the_summary_says_what_was_flown(tmp_path):
         "scenario": str(scenario), "seeds": "4..6", "draws": "", "params": str(params), "pictures": False, "version": version}
 
 
+def test_what_is_not_simulated_without_images_is_said(tmp_path):
+    params, closed = tmp_path / "params.yaml", tmp_path / "closed.yaml"
+    params.write_text("window_detector: {detector: {min_score: 1.0}}\ningress_navigator: {navigator: {commit: {glass: possible}}}\n")
+    closed.write_text(SCENARIO + "window: {closed_by: board}\n")
+    ignored, shut = "not used with --no-pictures: ingress_navigator/navigator/commit/glass, window_detector/detector/min_score", "the window is closed"
+    for scenario, wanted in ((scenario_in(tmp_path), [ignored]), (closed, [ignored + "; " + shut])):
+        checked = run("fly", "--scenario", scenario, "--params", params, "--no-pictures", "--check")
+        assert checked.returncode == 0 and all(f"fly: warning: {text}" in checked.stderr for text in wanted), checked.stderr
+    assert ignored not in run("fly", "--scenario", closed, "--params", params, "--check").stderr
+    done = run("campaign", "--no-pictures", "--seeds", "1..2", "--output", tmp_path / "out", closed, scenario_in(tmp_path))
+    assert done.returncode == 0 and f"Warning: {shut}, which nobody sees with --no-pictures (closed)\n" in done.stdout, done.stdout
+    assert json.loads((tmp_path / "out/short/summary.json").read_text())["median_time_s"] is None, "none passed"
+
+
 def test_flights_are_overwritten_only_where_asked_for(tmp_path):
     scenario, out = scenario_in(tmp_path), tmp_path / "out"
     assert fly(scenario, out, "--seeds", "1..3").returncode == 0
@@ -81,6 +95,8 @@ def test_the_table_says_with_which_parameters_and_what_of_them_does_not_count(tm
     other = run(*out, scenario_in(tmp_path, "other"))
     assert other.returncode == 2 and "holds the table of another campaign" in other.stderr
     assert (tmp_path / "out/table.md").read_text() == table
+    resumed = run(*out, "--resume", scenario_in(tmp_path, "other"))
+    assert resumed.returncode == 2 and "holds short, too" in resumed.stderr and (tmp_path / "out/table.md").read_text() == table
     assert run(*out, "--overwrite", scenario_in(tmp_path, "other")).returncode == 0
 
 

@@ -51,6 +51,23 @@ def test_size_without_camera_is_refused_as_it_brings_no_pose(tmp_path, image):
     assert_refused(result, 2, "--window-size needs --camera")
 
 
+def test_a_size_that_contradicts_the_reference_and_a_camera_of_another_size_are_said(tmp_path, image):
+    camera = tmp_path / "camera.yaml"
+    camera.write_text("image_width: 320\nimage_height: 240\ncamera_name: c\ncamera_matrix: {rows: 3, cols: 3, data: [300, 0, 160, 0, 300, 120, 0, 0, 1]}\n"
+                      "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n")
+    picture = numpy.full((240, 320, 3), 160, numpy.uint8)
+    cv2.rectangle(picture, (80, 60), (240, 180), (0, 120, 240), 12)
+    small, large = tmp_path / "small.png", tmp_path / "large.png"
+    cv2.imwrite(str(small), picture)
+    cv2.imwrite(str(large), cv2.resize(picture, (640, 480)))
+    arguments = ("--output", tmp_path / "out.csv", "--camera", camera, "--reference", small, "--reference-corners", "86,66,234,66,234,174,86,174")
+    right = run("detect_images", *arguments, "--window-size", "1.37,1.0", small)
+    assert right.returncode == 0 and "warning" not in right.stderr, right.stderr
+    swapped = run("detect_images", *arguments, "--window-size", "1.0,1.37", small, large)
+    assert "warning: the opening, 1 x 1.37 m, is 0.73 times as wide as it is high, but 1.37 times in the reference image" in swapped.stderr
+    assert "warning: 1 without lens and pose: not 320 x 240 px, as --camera says" in swapped.stderr
+
+
 def test_grey_image_beside_a_coloured_reference_is_said_to_be_found_by_geometry_alone(tmp_path):
     picture = numpy.full((240, 320, 3), 160, numpy.uint8)
     cv2.rectangle(picture, (80, 60), (240, 180), (0, 120, 240), 12)

@@ -59,7 +59,7 @@ def longest_run(words, text):
 
 def test_what_troubleshooting_quotes_is_said_somewhere():
     """At least half of the longest stretch without numbers and names: sources have formats for the rest."""
-    sources = [file for folder in ("src", "tools", "nodes", "scripts") for file in (ROOT / folder).rglob("*")]
+    sources = [file for folder in ("include", "src", "tools", "nodes", "scripts") for file in (ROOT / folder).rglob("*")]
     joined = " ".join(re.sub(r'"\s*\n\s*f?"', "", file.read_text(encoding="utf-8")) for file in sources
                       if file.is_file() and file.suffix in (".cpp", ".hpp", ".py", ""))
     text = re.sub(r"\s+", " ", joined)

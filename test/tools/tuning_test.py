@@ -214,7 +214,8 @@ def test_bags_with_truth_are_labelled_images(bag, blind, tmp_path):
 def test_nothing_is_written_where_nothing_is_better(labelled, tmp_path):
     saved = tmp_path / "none.yaml"
     code, said, errors = answer("tune_from_bag", "--trials", 15, "--labels", labelled / "labels.csv", "--images", labelled, "--output", saved)
-    assert code == 1 and "nothing written" in said, said + errors
+    assert code == 1 and "nothing written" in said and "ms an image" in said, said + errors
+    assert "warning: no --reference: any window counts" in errors
     assert not saved.exists()
 
 
