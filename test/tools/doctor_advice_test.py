@@ -385,6 +385,12 @@ def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys)
     assert "ERROR  setpoint_guard is not running" in out and out.count("mend: ") == 1
 
 
+def test_the_zeros_past_a_dead_guard_are_no_second_source_to_be_ended(doctor, capsys):
+    said_by(doctor, alive=("window_detector", "homography_pose", "ingress_navigator"), world__cmd_vel=(1, "more than one source on /cmd_vel"))
+    out = capsys.readouterr().out
+    assert "ERROR  setpoint_guard" in out and "follows: world: cmd_vel: more than one source" in out and out.count("mend: ") == 1
+
+
 def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_found(doctor, capsys):
     said_by(doctor, ingress_navigator__mission=(1, "ABORTED: window not found in 3 turns"), homography_pose__target=(
         2, "a window is seen in 186 images, but used in none: it is 1.20 times as wide as it is high, but the configured opening, 1.00 x 1.20 m, is 0.83 times"))
