@@ -19,6 +19,9 @@ constexpr double kGuessedRad = 0.004, kGuessedCount = 2.0;  // scatter of the sh
 constexpr double kMinSigmaRad = 0.001;                      // of a change of the shift: corners, attitude
 constexpr double kModelSigmaSec = 0.005;
 constexpr double kMaxOffsetSec = 0.05, kMaxSigmas = 4.0;
+// A vague offset must be more certain: a satellite receiver's errors last for seconds, so its changes are not
+// independent.
+constexpr double kVagueSigmaSec = 0.025, kMaxVagueSigmas = 5.0;
 
 bool isFinite(const ClockCheck::Sight& sight) {
   return std::isfinite(sight.stamp_sec) && sight.camera_odom_m.allFinite() &&
@@ -39,7 +42,8 @@ struct Shift {
 }  // namespace
 
 bool ClockCheck::Offset::isTooLarge() const {
-  return std::abs(late_sec) > std::max(kMaxOffsetSec, kMaxSigmas * sigma_sec);
+  const double sigmas = sigma_sec > kVagueSigmaSec ? kMaxVagueSigmas : kMaxSigmas;
+  return std::abs(late_sec) > std::max(kMaxOffsetSec, sigmas * sigma_sec);
 }
 
 // Both ends of a change are seen from the same place of the window, so that learning it counts for nothing.
