@@ -54,7 +54,7 @@ TEST(Fault, M61_QuaternionsThatAreNone) {
 TEST(Fault, M61_NoSpinWhereTheAngleWraps) {
   navigation::Navigator navigator{test::withoutGlass()};
   double fastest = 0.0, now = 10.0, yaw = M_PI;
-  Eigen::Vector3d position(4.0, 0.0, 1.5);
+  Eigen::Vector3d position(4.0, 0.0, 1.5), velocity(0.0, 0.0, 0.0);
   for (int i = 0; i < 300; ++i, now += 0.033) {
     const double sign = i % 3 == 0 ? -1.0 : 1.0,
                  jitter = i % 2 ? 1e-3 : -1e-3;  // the sign flips, and the angle wraps
@@ -62,13 +62,15 @@ TEST(Fault, M61_NoSpinWhereTheAngleWraps) {
     ASSERT_TRUE(vehicle) << vehicle.reason;
     navigation::NavigatorInput input = test::inputAt(position, now);
     input.vehicle = vehicle.value;
+    input.vehicle->velocity_odom_mps = velocity;
     input.target->T_odom_window.linear() = geometry::yawRotation(i % 2 ? M_PI : -M_PI + 1e-9);
     if (i == 0) {
       EXPECT_TRUE(navigator.start(input, now).success);
     }
     const auto output = navigator.step(input, now);
     fastest = std::max(fastest, std::abs(output.setpoint.yaw_rate_radps));
-    position += 0.033 * output.setpoint.velocity_odom_mps;
+    velocity = output.setpoint.velocity_odom_mps;
+    position += 0.033 * velocity;
     yaw += 0.033 * output.setpoint.yaw_rate_radps;
     if (navigation::isEnd(output.state)) break;
   }
