@@ -56,7 +56,8 @@ class DoctorTest(unittest.TestCase):
         code, said = doctor(ROS_MASTER_URI="http://localhost:1")
         self.assertEqual(code, 2)
         self.assertIn("no master at ROS_MASTER_URI=http://localhost:1", said)
-        self.assertIn("mend: roscore", said)
+        self.assertIn("mend: start a launch file", said)
+        self.assertIn("take over by the switch", said)
 
     def test_package_not_sourced(self):
         code, said = doctor(PYTHONPATH="/usr/lib/python3/dist-packages")
