@@ -88,8 +88,8 @@ const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
 // An extreme factor indicates wrong frames, not another window.
 std::optional<double> TargetEstimator::otherWindow() const {
   constexpr double kLargest = 5.0;
-  const auto factor = checks_->parallax.otherFactor();
-  return factor && *factor<kLargest&& * factor> 1.0 / kLargest ? factor : std::nullopt;
+  const double factor = checks_->parallax.otherFactor().value_or(kLargest);
+  return factor < kLargest && factor > 1.0 / kLargest ? std::optional(factor) : std::nullopt;
 }
 
 std::string TargetEstimator::approachForbidden(const FilteredWindow& window) const {
