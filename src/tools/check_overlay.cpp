@@ -186,9 +186,8 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
   if (o.needs_display == "true" && !tools::hasDisplay())
     faults.collect([] {
       throw InputError(
-          "rviz has no display: export DISPLAY=:0 on a machine with a screen, or, if the launch file has "
-          "this "
-          "argument, rviz:=false");
+          "rviz has no display: export DISPLAY=:0 on a machine with a screen, or, if the launch file has it, "
+          "rviz:=false");
     });
 }
 

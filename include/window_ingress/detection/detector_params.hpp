@@ -137,7 +137,7 @@ struct DetectorParams {
   TrackParams track;
   int max_candidates = 40;  ///< number of best candidates compared with each other and with the reference
   double min_score = 0.4;   ///< least score of a detection without a reference
-  double min_score_reference = 0.5;  ///< least score with a reference; of a place found by correlation: none
+  double min_score_reference = 0.5;  ///< least score with a reference, unless found by correlation
   double min_correlation = 0.58;     ///< least correlation of the target's surroundings with the reference
 
   template <typename Self, typename Visitor>

@@ -8,15 +8,17 @@
 namespace window_ingress::navigation {
 
 /// Detects odometry whose driver fills in the pose alone, or of the velocity the vertical part alone: the
-/// position moves sideways while the horizontal velocity is zero. A jump of the position is no motion.
+/// position moves sideways while the velocity forward and to the left is exactly zero, as no estimate is, not
+/// even of a vehicle that stands. A jump of the position is no motion.
 class EmptyTwist {
  public:
-  static constexpr double kMovedM = 0.3, kWithinSec = 3.0, kJumpM = 0.2, kZeroMps = 0.01;
+  static constexpr double kMovedM = 0.3, kWithinSec = 3.0, kJumpM = 0.2, kZeroMps = 1e-6;
 
   /// \return the fault, until there is a velocity, or an empty text
   std::string look(const VehicleState& vehicle) {
     const Place now{vehicle.stamp_sec, vehicle.T_odom_base.translation().head<2>()};
-    if (vehicle.velocity_odom_mps.head<2>().norm() > kZeroMps) {
+    const Eigen::Vector3d twist_mps = vehicle.T_odom_base.linear().transpose() * vehicle.velocity_odom_mps;
+    if (twist_mps.head<2>().norm() > kZeroMps) {
       from_.reset();
       has_moved_ = false;
     } else if (!from_ || (now.position_m - last_.position_m).norm() > kJumpM ||

@@ -15,11 +15,13 @@ struct Seen {
 };
 
 /// Moves across the line of sight to a window, with noise. `factor` is its true size over its stated size.
-Seen moveBy(double way_m, double factor, double distance_m, unsigned seed, const Eigen::Vector3d& direction) {
+Seen moveBy(double way_m, double factor, double distance_m, unsigned seed, const Eigen::Vector3d& direction,
+            double drift_m_per_sqrt_sec = 0.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gauss;
   const Eigen::Vector3d window(distance_m, 0.3, 0.2);
   Seen seen;
+  seen.check.assumeDrift(drift_m_per_sqrt_sec);
   for (double moved = 0.0; moved <= way_m; moved += 0.02) {
     const Eigen::Vector3d camera = moved * direction.normalized();
     const Eigen::Vector3d noise(gauss(random), gauss(random), gauss(random));
@@ -38,6 +40,23 @@ TEST(ParallaxCheck, NamesAWindowOfAnotherSizeAfterHalfAMetre) {
       EXPECT_LT(seen.way_m, 0.8) << factor;
       EXPECT_NEAR(*seen.check.otherFactor(), factor, 0.25 * factor);
     }
+}
+
+// As assumed until the drift is measured.
+TEST(ParallaxCheck, NamesItWithinAMetreUnderASatelliteReceiversDrift) {
+  for (unsigned seed = 1; seed <= 100; ++seed)
+    for (const double factor : {0.4, 0.5}) {
+      const Seen seen = moveBy(1.5, factor, 5.0 * factor, seed, {0, 1, 0}, 0.05);
+      ASSERT_TRUE(seen.check.otherFactor()) << factor;
+      EXPECT_LT(seen.way_m, 1.0) << factor;
+    }
+}
+
+TEST(ParallaxCheck, TakesItBackWhereTheSizeIsCertainlyAsSaid) {
+  Seen seen = moveBy(1.0, 0.5, 2.5, 1, {0, 1, 0});
+  ASSERT_TRUE(seen.check.otherFactor());
+  for (int i = 0; i < 120; ++i) seen.check.see(3.0 + i / 30.0, {0, 1.0 + 0.02 * i, 0}, {2.5, 0.3, 0.2});
+  EXPECT_FALSE(seen.check.otherFactor());
 }
 
 TEST(ParallaxCheck, NeverNamesOneOfTheSizeSaid) {
