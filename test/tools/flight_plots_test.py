@@ -92,7 +92,7 @@ def test_the_last_line_says_how_it_ended(log, tmp_path):
     assert "crossed at 5.00 s" in done.stdout and "actual miss 5.0 cm, predicted at most 12.0 cm" in done.stdout
     assert "APPROACH 3.0 s" in done.stdout and done.stdout.endswith("; ended in PASSED: 6.9 s flown\n")
     cut = run("plot_flight", log, "--output", tmp_path / "b.png", "--from", "1", "--to", "3")
-    assert "no crossing of the plane in this part" in cut.stdout and "COMMIT" not in cut.stdout
+    assert "no crossing of the plane in this part; no commit in this part" in cut.stdout and "COMMIT" not in cut.stdout
     assert re.search(r"until 3\.0 s, in \w+$", cut.stdout.strip()), cut.stdout
     picture = cv2.imread(str(tmp_path / "b.png"))
     assert share_of(picture, flight_data.STATE_COLOURS["APPROACH"]) > 0.005

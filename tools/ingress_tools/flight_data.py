@@ -101,6 +101,8 @@ class Flight:
         inside = [(time, name) for time, name in self.states if begin <= time <= end]
         before = [name for time, name in self.states if time < begin]
         self.states = [(self.time[0], before[-1])] + inside if before else inside or self.states[:1]
+        if not any(name == "COMMIT" for _, name in self.states):
+            self.predicted_miss = None
         seen = (self.images.time >= begin) & (self.images.time <= end)
         for name in Images.NAMES:
             setattr(self.images, name, getattr(self.images, name)[seen])
