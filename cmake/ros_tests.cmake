@@ -1,4 +1,5 @@
-# ROS tests: each <name>.test in test/ros and test/faults/ros is one rostest with its own master. It runs <name>_test.py.
+# ROS tests: each <name>.test in test/ros and test/faults/ros is one rostest with its own master. It runs <name>_test.py; its
+# attribute time-limit is the test's [s].
 find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
 
 # The excluded files need an optional driver or arguments; test/tools/launch_files_test.py checks them.

@@ -38,7 +38,7 @@ constexpr Wording kWordings[] = {
     {"other_frame", "width of the frame over the reference's", "outside"},
     {"unlike", "correlation with the reference's surroundings", "<"},
     {"score", "score", "<"},
-    {"outscored", "outscored,", "<"},
+    {"outscored", "score weighed by size", "<"},
     {"budget", "rank", ">"},
 };
 static_assert(std::size(kWordings) == kRejectReasons);

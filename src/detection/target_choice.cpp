@@ -155,10 +155,11 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
   search_factor_ = search_factor;
   sortByRank(candidates);
   std::optional<WindowObservation> window;
+  double window_rank = 0.0;
   int tries = 0;
   for (const ScoredCandidate& candidate : candidates) {
     auto fault = objection(candidate);
-    if (!fault && window) fault = Rejection{RejectReason::kOutscored, candidate.score, window->score};
+    if (!fault && window) fault = Rejection{RejectReason::kOutscored, candidate.rank(), window_rank};
     if (!fault && ++tries > kRefinementTries)
       fault = Rejection{RejectReason::kBudget, static_cast<double>(tries), kRefinementTries};
     RefinedBorders fitted;
@@ -171,6 +172,7 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
     record(candidate, RejectReason::kNone, candidate.score, leastScore(candidate));
     window = observationOf(trace_.candidates.back(), fitted, view.stamp_sec);
     window->runner_up = runnerUp(candidate, candidates);
+    window_rank = candidate.rank();
     trace_.target = static_cast<int>(trace_.candidates.size()) - 1;
     trace_.candidates.back().quad = fitted.corners;
   }

@@ -8,6 +8,7 @@
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_rules.hpp"
 #include "navigation/mission/opening_policy.hpp"
+#include "navigation/mission/start_conditions.hpp"
 #include "navigation/mission/window_choice.hpp"
 #include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/motion/pending_yaw.hpp"

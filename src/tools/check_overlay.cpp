@@ -16,7 +16,7 @@
 #include "command_line.hpp"
 #include "display.hpp"
 #include "launch_checks.hpp"
-#include "navigation/mission/mission_rules.hpp"
+#include "navigation/mission/start_conditions.hpp"
 #include "params_file.hpp"
 #include "recorded_topics.hpp"
 #include "simulation/scenario/scenario.hpp"

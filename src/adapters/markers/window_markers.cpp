@@ -131,7 +131,7 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
 }
 
 std::string windowLabel(const window_ingress::WindowPose& message) {
-  static const char* const kFits[] = {"fit?", "GO", "NO GO"};
+  static const char* const kFits[] = {"vehicle may fit", "vehicle fits", "too small"};
   const window_ingress::RelativeYaw& yaw = message.image.relative_yaw;
   const window_ingress::SystemChecks& checks = message.checks;
   const std::string sight = message.image.reject == window_ingress::ImagePose::OK

@@ -1,10 +1,8 @@
-/// Rules of the whole mission, independent of the state.
+/// Rules of a mission under way, independent of the state.
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "navigation/mission/flown_window.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_state.hpp"
 #include "navigation/motion/disturbance_observer.hpp"
@@ -13,15 +11,6 @@
 #include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {
-
-/// Checks the parameters; `input.max_future_sec` is taken from the vehicle. \throws std::invalid_argument
-/// that lists every fault
-NavigatorParams checked(NavigatorParams params);
-
-/// All reasons against a start; empty if there are none. \param flown_at the last window flown at: in its
-/// opening, the turn of a search would hit the border
-std::vector<std::string> unmetToStart(const Situation& situation, bool engaged, const FlownWindow& flown_at,
-                                      const NavigatorParams& params);
 
 /// Timeout of the mission or of this state, as text; empty if none. HOLD has its own (`hold/timeout_sec`).
 std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts);
