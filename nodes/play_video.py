@@ -24,6 +24,8 @@ class Unusable(Exception):
 def calibration(file):
     """camera_info from the calibrator's file."""
     file = os.path.expanduser(file.replace("file://", "", 1))
+    if not os.path.isabs(file):
+        raise Unusable(f"calibration {file}: give its whole path, as file:///home/me/camera.yaml")
     if not os.path.isfile(file):
         raise Unusable(f"calibration {file}: no such file; calibrate the camera that took the video (doc/window.md), or give calibration:=")
     try:

@@ -80,9 +80,10 @@ class Rehearsal:
         now = rospy.Time.now()
         with self._lock:
             dt, self._last_s = now.to_sec() - self._last_s, now.to_sec()
-            if self._flies_unseen() and not self._hand.is_seen(now.to_sec()):
+            if not self._hand.is_seen(now.to_sec()):
                 linear = self._setpoint.twist.linear
-                self._hand.carry([linear.x, linear.y, linear.z], max(0.0, min(dt, 0.1)))
+                velocity = [linear.x, linear.y, linear.z] if self._flies_unseen() else numpy.zeros(3)
+                self._hand.carry(velocity, max(0.0, min(dt, 0.1)))
             place, velocity, rotation = self._hand.at(now.to_sec())
         if self._odom is not None:
             self._tell(now, place, velocity, rotation)
@@ -138,7 +139,7 @@ class Rehearsal:
 def main():
     rospy.init_node("rehearsal")
     rehearsal = Rehearsal()
-    if not rospy.has_param("window_detector/reference/picture"):
+    if not rospy.get_param("window_detector/reference/picture", ""):
         rospy.logwarn("no reference image: the target is whatever looks most like a window, and may change; "
                       "give reference:=IMAGE reference_corners:=X1,Y1,...")
     while not rospy.is_shutdown():

@@ -47,7 +47,7 @@ MEANING = {  # of the reasons, as in doc/detection.md
     "other_frame": "its frame is wider or narrower than the reference's",
     "unlike": "its surroundings do not match the reference's",
     "score": "score below the limit",
-    "outscored": "a plausible window, but another one is better",
+    "outscored": "a plausible window, but another one has the higher score once its size in the image is weighed",
     "budget": "not looked at: too many candidates in one image",
     "pose_bad_camera": "the calibration cannot be used",
     "pose_bad_corners": "the corners are no window seen from the front",

@@ -133,6 +133,15 @@ inline std::string notSimulated(const configuration::Overlay& overlay, const sim
   return text;
 }
 
+/// An open window that no flight can pass, because the navigator asks whether it has glass; empty: none.
+inline std::string asksInVain(const configuration::Overlay& overlay, const simulation::Scenario& scenario) {
+  const std::string& set = overlay.ingress_navigator.navigator.commit.glass;
+  const bool asks = (scenario.glass == "as_set" ? set : scenario.glass) == "possible";
+  if (!asks || !scenario.window.present || !scenario.window.isOpen()) return "";
+  return "nobody is there to answer ~confirm_opening: give the scenario 'glass: excluded' and "
+         "'unverified_opening: allow'";
+}
+
 inline FlyJob jobOf(const FlyOptions& o) {
   FlyJob job{o};
   if (o.output.empty() && !o.check) throw InputError("--output is missing: a folder for the results");
@@ -147,7 +156,7 @@ inline FlyJob jobOf(const FlyOptions& o) {
   const auto scenario = job.scenario(job.seeds.empty() ? 1U : job.seeds.front());  // a shard may be empty
   for (const std::string& warning :
        {otherSizes(job.params, scenario), otherReference(job.params), onlyForNodes(job.params),
-        o.no_pictures ? notSimulated(job.params, scenario) : ""}) {
+        o.no_pictures ? notSimulated(job.params, scenario) : asksInVain(job.params, scenario)}) {
     if (warning.empty()) continue;
     job.warnings.push_back(warning);
     std::cerr << "fly: warning: " << warning << "\n";

@@ -3,7 +3,9 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -46,6 +48,26 @@ inline std::string argumentFor(const std::string& topic, const std::string& type
   return name == names.end() ? "" : name->second + topic;
 }
 
+/// The player's clock is the time of recording: if that is not the time of the stamps, the nodes refuse all.
+/// \throws InputError for a bag whose recorder ran by another clock than the camera
+inline void checkRecordersClock(const std::vector<std::string>& bags) {
+  constexpr double kDaySec = 86400.0;
+  for (const auto& file : bags) {
+    const rosbag::Bag bag(file);
+    for (const auto& message : rosbag::View(bag, rosbag::TypeQuery("sensor_msgs/CameraInfo"))) {
+      const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+      if (!info || info->header.stamp.isZero()) break;
+      const double days = (message.getTime() - info->header.stamp).toSec() / kDaySec;
+      if (std::abs(days) > 1.0)
+        throw InputError(formatted(
+            "replay.launch: %s: recorded %.0f days after the stamps of its images. Start record.launch after "
+            "sim.launch, so that both have one clock. 'ingress replay' can read this bag",
+            file.c_str(), days));
+      break;
+    }
+  }
+}
+
 /// \param played NAME=TOPIC separated by blanks, NAME being the launch argument
 /// \throws InputError that names each topic missing in all bags, and alternatives in them
 inline void checkPlayed(const std::string& files, const std::string& played) {
@@ -66,6 +88,7 @@ inline void checkPlayed(const std::string& files, const std::string& played) {
     if (!others.empty()) faults.push_back("replay.launch: no " + topic + " in " + files + others);
   }
   if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
+  if (!types.empty()) checkRecordersClock(filesIn(files));
 }
 
 }  // namespace window_ingress::tools

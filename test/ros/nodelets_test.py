@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The nodelets work like the nodes, in one process. One can be unloaded and loaded again without harm to the others."""
+import os
 import subprocess
 import sys
 import time
@@ -8,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
+from roslib.packages import find_node
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from window_ingress.msg import IngressState, WindowDetection, WindowPose
 
@@ -34,7 +36,13 @@ class NodeletsTest(unittest.TestCase):
         self.poses.wait(lambda p: p.image.reject == p.image.OK, "a pose", begin=0.0)
         self.states.wait(lambda s: s.state_name == "IDLE", "the navigator's state", begin=0.0)
 
-    def test_2_one_of_them_is_taken_out_and_put_in_again(self):
+    def test_2_doctor_looks_at_the_inputs_of_nodelets_too(self):
+        said = subprocess.run([find_node("window_ingress", "doctor")[0], "--seconds", "2.5"], capture_output=True, text=True, timeout=60, check=False,
+                              env={**os.environ, "WINDOW_INGRESS_RUN": ""}).stdout
+        for words in ("/image_raw: ", "should be 15 Hz or more", "/odom: ", "/camera_info: calibrated", "tf: "):
+            self.assertIn(words, said)
+
+    def test_3_one_of_them_is_taken_out_and_put_in_again(self):
         subprocess.run([*NODELET, "unload", "/window_detector", "/manager"], check=True, timeout=support.DEADLINE_S)
         begin = time.monotonic()
         loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/manager",

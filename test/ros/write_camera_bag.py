@@ -1,6 +1,6 @@
 """Writes a bag of a camera on a standing vehicle: usage write_camera_bag.py FILE.bag [WORD...]
 
-raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, rear_info (of another frame), not_rectified (P is zero), no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
+raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, rear_info (of another frame), not_rectified (P is zero), no_odom, map (the frame of the odometry), reference (another window than the one seen), twice (a looped replay, recorded), no_clock (the recorder did not use the simulated clock), outputs (a
 window_pose and setpoints of the flight, which must not count as new ones).
 """
 import pathlib
@@ -67,6 +67,7 @@ def main():
             for i in range(count):
                 stamp = rospy.Time.from_sec(START_S + i / RATE_HZ)
                 at = rospy.Time.from_sec(RECORDED_S + received / RATE_HZ) if "twice" in words else stamp
+                at += rospy.Duration(20000 * 86400) if "no_clock" in words else rospy.Duration()
                 received += 1
                 for topic, message in messages(stamp, pixels, words, image):
                     bag.write(topic, message, at - rospy.Duration(0.001) if topic == "/imu" else at)

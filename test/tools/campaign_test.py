@@ -60,6 +60,12 @@ def test_what_is_not_simulated_without_images_is_said(tmp_path):
         checked = run("fly", "--scenario", scenario, "--params", params, "--no-pictures", "--check")
         assert checked.returncode == 0 and all(f"fly: warning: {text}" in checked.stderr for text in wanted), checked.stderr
     assert ignored not in run("fly", "--scenario", closed, "--params", params, "--check").stderr
+    in_vain = "nobody is there to answer ~confirm_opening"
+    assert in_vain in run("fly", "--scenario", scenario_in(tmp_path), "--check").stderr
+    excluded = tmp_path / "excluded.yaml"
+    excluded.write_text(SCENARIO + "glass: excluded\n")
+    for scenario, options in ((excluded, []), (scenario_in(tmp_path), ["--no-pictures"]), (closed, [])):
+        assert in_vain not in run("fly", "--scenario", scenario, *options, "--check").stderr
     done = run("campaign", "--no-pictures", "--seeds", "1..2", "--output", tmp_path / "out", closed, scenario_in(tmp_path))
     assert done.returncode == 0 and f"Warning: {shut}, which nobody sees with --no-pictures (closed)\n" in done.stdout, done.stdout
     assert json.loads((tmp_path / "out/short/summary.json").read_text())["median_time_s"] is None, "none passed"
@@ -166,6 +172,7 @@ def test_flights_with_and_without_images_are_not_mixed(tmp_path):
 
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     scenario = scenario_in(tmp_path)
+    scenario.write_text(SCENARIO + "glass: excluded\n")
     command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "2", scenario]
     assert call(*command).returncode == 0
     kept, lost = (tmp_path / "short/shards" / name / "summary.json" for name in ("1_of_2", "2_of_2"))
@@ -189,7 +196,7 @@ def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on
     while time.monotonic() < end and not all(file.is_file() and file.stat().st_size for file in shards):
         time.sleep(0.05)
     campaign.send_signal(signal.SIGINT)
-    assert "campaign: broken off; go on with --resume\n" in campaign.communicate(timeout=60)[1] and campaign.returncode == 1
+    assert "campaign: broken off; the table comes when all is flown: go on with --resume\n" in campaign.communicate(timeout=60)[1] and campaign.returncode == 1
     assert not [line for line in call("ps", "-eo", "args").stdout.splitlines() if "bin/fly" in line and str(out) in line], "flies on"
     scenario.write_text(SCENARIO)
     resumed = call(*command, "--resume")

@@ -89,10 +89,12 @@ def test_stands_when_the_window_is_out_of_sight_or_follows_when_told_to():
     hand = HandOdometry()
     end_s = carried(hand, [(0.4 * i / RATE_HZ, 0.0, 0.0) for i in range(60)], [numpy.eye(3)] * 60)
     assert hand.is_seen(end_s + 0.1) and not hand.is_seen(end_s + 0.5)
+    hand.carry(numpy.zeros(3), 0.02)
     place, velocity, _ = hand.at(end_s + 0.5)
     assert numpy.linalg.norm(velocity) == 0.0
     hand.carry([0.5, 0.0, 0.0], 0.02)
-    assert hand.at(end_s + 0.5)[0] == pytest.approx(place + [0.01, 0.0, 0.0])
+    moved, velocity, _ = hand.at(end_s + 0.5)
+    assert moved == pytest.approx(place + [0.01, 0.0, 0.0]) and velocity == pytest.approx([0.5, 0.0, 0.0])
 
 
 def test_rotations_become_quaternions_and_back():

@@ -31,6 +31,9 @@ def test_topics_that_a_bag_has_under_other_names_are_named_before_anything_start
     damaged = run("check_overlay", "--bag", tmp_path / "flight.bag", "--plays", "imu=/imu")
     assert damaged.returncode == 2 and f"check_overlay: {tmp_path}/flight.bag: damaged: " in damaged.stderr, damaged.stderr
     (tmp_path / "flight.bag").write_bytes(content)
+    assert run("python3", ROOT / "test/ros/write_camera_bag.py", tmp_path / "early.bag", "seconds=0.2", "no_clock").returncode == 0
+    early = run("roslaunch", "--nodes", ROOT / "launch/replay.launch", f"bag:={tmp_path}/early.bag")
+    assert f"{tmp_path}/early.bag: recorded 20000 days after the stamps of its images. Start record.launch after sim.launch" in early.stderr, early.stderr
     right = f"image:=/eye/image_raw camera_info:=/eye/camera_info bag:={tmp_path}/flight.bag"
     assert run("roslaunch", "--nodes", ROOT / "launch/replay.launch", *right.split()).returncode == 0
 

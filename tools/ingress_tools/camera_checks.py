@@ -1,8 +1,23 @@
 """Part of doctor: calibration and mounting of the camera."""
+import numpy
+
 from ingress_tools.remedies import remedy
 
 LOOKS_FORWARD = 0.7  # least component of an axis, about 45 degrees
 BESIDE_BODY_M = 0.02
+
+
+def view_deg(info):
+    """Width of the field of view, without the lens's distortion [deg]."""
+    half = 0.5 * info.width / info.K[0]
+    return 2.0 * numpy.degrees(half if info.distortion_model in ("equidistant", "fisheye") else numpy.arctan(half))
+
+
+def angles_deg(R_base_optical):
+    """Yaw, pitch, roll of an optical frame as camera_pose:= takes them, in degrees: of x forward, y left, z up."""
+    forward, left, up = R_base_optical[:, 2], -R_base_optical[:, 0], -R_base_optical[:, 1]
+    angles = numpy.arctan2(forward[1], forward[0]), numpy.arcsin(numpy.clip(-forward[2], -1.0, 1.0)), numpy.arctan2(left[2], up[2])
+    return numpy.round(numpy.degrees(angles), 1) + 0.0  # no -0.0
 
 
 def check_calibration(system, report):
@@ -17,7 +32,8 @@ def check_calibration(system, report):
     elif size and size != (info.width, info.height):
         report.error(f"{topic}: for {info.width}x{info.height}, the image on {image} has {size[0]}x{size[1]}", remedy("sizes differ"), [topic])
     else:
-        report.ok(f"{topic}: calibrated, fx {info.K[0]:.1f} px, {info.width}x{info.height} as the image, frame {info.header.frame_id}")
+        report.ok(f"{topic}: calibrated, fx {info.K[0]:.1f} px ({view_deg(info):.0f} deg wide), {info.width}x{info.height} as the image, "
+                  f"frame {info.header.frame_id}")
 
 
 def check_mounting(system, report):
@@ -49,4 +65,5 @@ def check_mounting(system, report):
         report.error(f"tf: {camera} at ({at}) m in {base} lies outside of the vehicle, which reaches {' x '.join(map(str, half))} m from its middle",
                      "measure both: camera_pose:=x,y,z,yaw,pitch,roll, and vehicle: {half_length_m, half_width_m, half_height_m} in your config", [camera])
     else:
-        report.ok(f"tf: {camera} at ({at}) m in {base}, looks forward")
+        yaw, pitch, roll = angles_deg(T_base_camera[:3, :3])
+        report.ok(f"tf: {camera} at ({at}) m in {base}, looks forward: yaw {yaw:+.1f}, pitch {pitch:+.1f} (positive: down), roll {roll:+.1f} deg")

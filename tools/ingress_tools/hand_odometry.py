@@ -79,12 +79,11 @@ class HandOdometry:
         return self._seen_s is not None and now_s - self._seen_s <= LONGEST_GUESS_S
 
     def carry(self, velocity, dt_s):
-        """Moves by the setpoint while the window is out of sight."""
+        """Moves with this velocity while the window is out of sight."""
         self.velocity = numpy.asarray(velocity, float)
         self.place = self.place + dt_s * self.velocity
 
     def at(self, now_s):
         """(place, velocity, rotation of the body) in odom, the velocity in odom axes."""
-        if not self.is_seen(now_s):
-            return self.place, numpy.zeros(3), self.rotation
-        return self.place + (now_s - self._seen_s) * self.velocity, self.velocity, self.rotation
+        guessed_s = now_s - self._seen_s if self.is_seen(now_s) else 0.0
+        return self.place + guessed_s * self.velocity, self.velocity, self.rotation

@@ -54,11 +54,17 @@ class Graph:
         return self._ask(node, "getPid") is not None
 
     def subscriptions(self, node):
-        """{topic: type} as the node itself reports; the master knows only one type per topic."""
-        return dict(self._ask(node, "getSubscriptions") or [])
+        """{topic: type} as the node itself reports; the master knows only one type per topic. Of a nodelet: those of its manager."""
+        return dict(self._ask(self._worker(node), "getSubscriptions") or [])
 
     def publications(self, node):
-        return dict(self._ask(node, "getPublications") or [])
+        return dict(self._ask(self._worker(node), "getPublications") or [])
+
+    def _worker(self, node):
+        """The manager, if the node is the loader of a nodelet: its only bond is the manager's."""
+        bonds = [topic for topic, kind in self._ask(node, "getSubscriptions") or [] if kind == "bond/Status"]
+        manager = bonds[0].rsplit("/", 1)[0] if len(bonds) == 1 else node
+        return manager if self.answers(manager) else node
 
     def topics_of_type(self, kind):
         return sorted(topic for topic, type_ in self.types.items() if type_ == kind and self.publishers.get(topic))
