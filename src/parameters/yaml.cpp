@@ -63,7 +63,7 @@ YAML::Node loadYaml(const std::string& file) {
     if (holdsZeros(file)) throw InputError(file + ": is not plain text; save it as UTF-8");
     if (documents.size() > 1)
       throw InputError(file + ": holds " + std::to_string(documents.size()) +
-                       " documents separated by '---'; only one is allowed");
+                       " documents instead of one: a line '---' or a name without its colon separates them");
     return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::BadFile&) {
     throw InputError(file + ": cannot be read; does it exist?");

@@ -99,8 +99,8 @@ double checkReference(const Options& o, const std::string& file,
       throw InputError(from + "reference corners without their image: give reference:= as well");
     if (o.asksForSizes())
       tools::warn(
-          "no reference image (reference:=, or window_detector/reference in the file): the detector may lock "
-          "onto another window or a decoy");
+          "no reference image (reference:=, or window_detector/reference in the file): unless one comes on "
+          "/reference, the detector may lock onto another window or a decoy");
     return 0.0;
   }
   if (!std::filesystem::path(reference.picture).is_absolute())

@@ -35,7 +35,7 @@ class DoctorBrokenTest(unittest.TestCase):
             ("/odom", Odometry, support.odometry, 50.0), ("/imu", Imu, support.imu, 50.0))]
         expected = ("/camera/image_raw: is a sensor_msgs/CompressedImage, window_detector reads sensor_msgs/Image",
                     "tf: camera_optical_frame does not look forward: its z axis is (+0.00, +0.00, +1.00) in base_link",
-                    "/cmd_vel: nobody takes setpoints", "cmd_vel:=ITS_TOPIC",
+                    "/cmd_vel: nobody takes setpoints", "cmd_vel:=ITS_TOPIC", "the pilot's switch does not end a mission",
                     "window_detector: no reference image", "mend: ingress reference IMAGE")
         for _ in range(4):  # nodes discover each other one by one
             code, said = doctor()
