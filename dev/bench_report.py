@@ -268,6 +268,8 @@ def main():
         write_readme(arguments.readme, followed_times(times))
     for text in result["broken_bounds"]:
         print(f"bench: bound broken: {text}", file=sys.stderr)
+    if not result["broken_bounds"]:
+        print("bench: no bound is broken")
     sys.exit(1 if result["broken_bounds"] else 0)
 
 

@@ -130,7 +130,7 @@ void judge(const Options& options, const adapters::ReplayParams& params,
     throw InputError(options.bag + ": no image in " + params.topics.image + " can be read");
   if (params.with_pose && summary.calibrated == 0)
     throw InputError(options.bag + ": no calibration: " + summary.refusal);
-  say(formatted("%d images, %.2f ms each", summary.images, summary.milliseconds / summary.images));
+  say(formatted("%d images, %.2f ms each on average", summary.images, summary.milliseconds / summary.images));
 }
 
 int run(const Options& options, const std::string& command) {
