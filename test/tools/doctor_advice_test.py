@@ -10,7 +10,7 @@ import types
 import pytest
 from geometry_msgs.msg import TransformStamped
 
-from ingress_tools import findings, live_system, observed_system, remedies, topic_checks
+from ingress_tools import camera_checks, findings, hand_odometry, live_system, observed_system, remedies, topic_checks, transforms
 from repository import ROOT, call, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
@@ -19,6 +19,13 @@ RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
 @pytest.fixture(name="doctor", scope="module")
 def fixture_doctor():
     return load("tools/doctor")
+
+
+@pytest.mark.parametrize("axis, index", [((0, 0, 1), 0), ((0, 1, 0), 1), ((1, 0, 0), 2)], ids=["yaw", "pitch down", "roll"])
+def test_the_mounting_is_told_in_the_angles_that_camera_pose_takes(axis, index):
+    turned = transforms.matrix_of([*(math.sin(math.radians(7.5)) * value for value in axis), math.cos(math.radians(7.5))])
+    wanted = [15.0 if i == index else 0.0 for i in range(3)]
+    assert list(camera_checks.angles_deg(turned @ hand_odometry.R_BODY_CAMERA)) == pytest.approx(wanted)
 
 
 def seen(topics=(), said=()):
@@ -81,15 +88,18 @@ def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived,
         assert said[2:] == ["       follows: /mavros/setpoint_velocity/cmd_vel: nobody takes setpoints", "1 finding(s) to mend, 1 follow from them"]
 
 
-@pytest.mark.parametrize("required, publishers, words", [(True, [], "ERROR  /engaged: 0 publishers"), (False, [], "nothing is wrong"),
-                                                         (True, ["/engaged_from_mavros"], "nothing is wrong")])
-def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypatch, capsys, required, publishers, words):
+@pytest.mark.parametrize("required, setpoints, publishers, words", [
+    (True, "/cmd_vel", [], "ERROR  /engaged: 0 publishers"), (False, "/cmd_vel", [], "nothing is wrong"),
+    (False, "/mavros/setpoint_velocity/cmd_vel", [], "WARN   setpoints go to MAVROS, but nothing on /engaged says"),
+    (True, "/mavros/setpoint_velocity/cmd_vel", ["/engaged_from_mavros"], "nothing is wrong")])
+def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypatch, capsys, required, setpoints, publishers, words):
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default=None: required if name.endswith("engagement/required") else default)
     system = seen(said={} if publishers else {"ingress_navigator: engaged": 2})
     for status in system.said.values():
         status.message = "nothing on /engaged yet, but engagement/required is set: no mission can start"
     system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
     system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
+    system.setpoints = setpoints
     system.graph.publishers["/engaged"] = publishers
     report = findings.Report()
     doctor.check_engaged(system, report)
