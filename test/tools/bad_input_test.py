@@ -33,7 +33,7 @@ def test_a_shard_without_flights_is_done_at_once(tmp_path):
 def test_a_full_disk_ends_the_flights_with_one_line(tmp_path):
     (tmp_path / "flights.csv").symlink_to("/dev/full")
     scenario = tmp_path / "short.yaml"
-    scenario.write_text("time_limit_sec: 1\ncamera: {width_px: 64, height_px: 48}\n")
+    scenario.write_text("time_limit_sec: 1\nglass: excluded\ncamera: {width_px: 64, height_px: 48}\n")
     assert_refused(run("fly", "--scenario", scenario, "--seeds", "1..3", "--output", tmp_path, "--overwrite"), 1, "is the disk full?")
 
 
