@@ -63,8 +63,8 @@ class Graph:
     def _worker(self, node):
         """The manager, if the node is the loader of a nodelet: its only bond is the manager's."""
         bonds = [topic for topic, kind in self._ask(node, "getSubscriptions") or [] if kind == "bond/Status"]
-        manager = bonds[0].rsplit("/", 1)[0] if len(bonds) == 1 else node
-        return manager if self.answers(manager) else node
+        manager = bonds[0].rsplit("/", 1)[0] if len(bonds) == 1 else None
+        return manager if manager and self.answers(manager) else node
 
     def topics_of_type(self, kind):
         return sorted(topic for topic, type_ in self.types.items() if type_ == kind and self.publishers.get(topic))

@@ -7,8 +7,8 @@ LAUNCH = "scripts/run roslaunch window_ingress ingress.launch"
 AGAIN = "end ingress.launch and start it as before, but with"  # a second launch beside it is refused
 WRONG_SIZE = (f"measure the opening's inner width and height, {AGAIN} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
               "if it is another window that is seen: doc/window.md, 'Make a reference image'")
-NOT_THAT_LARGE = (WRONG_SIZE + ". If the tape agrees with the configuration, the calibration is wrong by the factor between the two sizes: calibrate "
-                  "again (doc/window.md), never enter a size that was not measured")
+WRONG_SIZE_OR_FOCUS = (WRONG_SIZE + ". If the tape agrees with the configuration, the calibration is wrong by the factor between the two sizes: calibrate "
+                       "again (doc/window.md), never enter a size that was not measured")
 LOOK = "is the image upside down or mirrored? Look at it: scripts/run roslaunch window_ingress view.launch"  # a camera's roll, or its driver's flip
 IMAGES = {"sensor_msgs/Image": ("image_transport:=raw ", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
 # (words of a message, what to do about it); the first match counts.
@@ -38,8 +38,8 @@ REMEDIES = (
                                              "NED); propellers off: scripts/ingress check-frames --by-hand --odom ITS_TOPIC"),
     ("twist looks like", "let the odometry's driver give the velocity in the axes of child_frame_id: forward, left, up"),
     ("quaternion has length", "let the publisher normalise orientation; a driver that does not fill it in sends zeros"),
-    ("contradict the estimated window", NOT_THAT_LARGE),
-    ("normalised innovation squared", NOT_THAT_LARGE),
+    ("contradict the estimated window", WRONG_SIZE_OR_FOCUS),
+    ("normalised innovation squared", WRONG_SIZE_OR_FOCUS),
     ("relative to odometry", f"correct the driver's stamps, synchronise the clocks (chrony, MAVROS's timesync); {LOOK}"),
     ("none is the reference's", f"if it is the target that is in view: {LOOK}; are red and blue exchanged, or is the image grey (encoding)? Then a new "
                                 "reference: scripts/run rosservice call /window_detector/capture_reference"),
@@ -53,7 +53,7 @@ REMEDIES = (
     ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),
     ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
     ("times as wide as it is high", WRONG_SIZE),
-    ("opening looks like", NOT_THAT_LARGE),
+    ("opening looks like", WRONG_SIZE_OR_FOCUS),
     ("cannot be excluded yet", f"wait until the vehicle has moved sideways before the window; if this comes again, measure the camera's angles, {AGAIN} "
                                "camera_pose:=x,y,z,yaw,pitch,roll"),
     ("camera mounting turned by", f"{LOOK}; if it is as it should be, add these angles, in radians, to those of the camera, {AGAIN} camera_pose:=x,y,z,yaw,pitch,roll"),
