@@ -19,7 +19,7 @@
 #include "evaluation/flights/flight_picture.hpp"
 #include "evaluation/flights/flight_results.hpp"
 #include "evaluation/output_file.hpp"
-#include "fly_job.hpp"
+#include "fly_options.hpp"
 #ifdef WINDOW_INGRESS_WITH_ROS
 #include "adapters/bags/flight_bag.hpp"
 #endif

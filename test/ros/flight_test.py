@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""World, detector, pose node, navigator and guard as processes: started by service, judged PASSED by the referee."""
+"""World, detector, pose node, navigator and guard as processes: started by service, judged PASSED by the referee.
+
+How far off the centre it may cross is bounded in closed_loop_flight_test.cpp."""
 import sys
 import unittest
 

@@ -1,4 +1,4 @@
-/// The mission's state machine as data: states, events, transitions. No guards, no times, no strings: the
+/// The mission's state machine as data: states, events, transitions. No guards, no times: the
 /// sender of an event checks its conditions, the table only says where it leads.
 #pragma once
 
@@ -33,8 +33,21 @@ enum class Event {
 };
 inline constexpr std::size_t kEventCount = 18;
 
-const char* toString(State state);
-const char* toString(Event event);
+inline const char* toString(State state) {
+  constexpr std::array<const char*, kStateCount> kNames{"IDLE",   "SEARCH",   "ALIGN", "APPROACH", "COMMIT",
+                                                        "PASSED", "BACK_OFF", "HOLD",  "ABORTED"};
+  const auto at = static_cast<std::size_t>(state);
+  return at < kNames.size() ? kNames[at] : "UNKNOWN";
+}
+
+inline const char* toString(Event event) {
+  constexpr std::array<const char*, kEventCount> kNames{
+      "start",       "window found", "aligned",     "misaligned", "commit reached", "commit criterion unmet",
+      "crossed",     "other window", "window lost", "backed off", "reacquired",     "resumed",
+      "input stale", "input fresh",  "give up",     "disengaged", "abort",          "reset"};
+  const auto at = static_cast<std::size_t>(event);
+  return at < kNames.size() ? kNames[at] : "unknown";
+}
 
 struct Transition {
   State from;

@@ -2,7 +2,8 @@
 
 namespace window_ingress::openness {
 
-/// What counts as open, and how certain that must be.
+/// What counts as open, and how certain that must be. How much of the opening must be seen open is not a
+/// parameter: see `openness_judge.cpp`.
 struct OpennessParams {
   double max_depth_closed_m = 0.35;  ///< a surface up to this far behind the border closes the opening [m]
   double min_depth_behind_m = 0.7;   ///< least depth behind the border of what is seen through an open window

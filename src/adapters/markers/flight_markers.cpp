@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"
 
@@ -9,18 +10,6 @@ namespace window_ingress::adapters {
 namespace {
 
 using navigation::NavigatorParams;
-
-constexpr int kStateRgb[navigation::kStateCount] = {
-    0xaaaaaa,  // IDLE
-    0x9b59b6,  // SEARCH
-    0x1f5fa8,  // ALIGN
-    0x56c1e8,  // APPROACH
-    0xe67e22,  // COMMIT
-    0x2e9e4f,  // PASSED
-    0xd0312d,  // BACK_OFF
-    0xf1c40f,  // HOLD
-    0x000000,  // ABORTED
-};
 
 constexpr std::size_t kMaxPlaces = 2000;
 constexpr double kFunnelM = 1.5;     // length of the part outside the commit line
@@ -103,10 +92,6 @@ void drawTurn(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_base,
 }
 
 }  // namespace
-
-std_msgs::ColorRGBA colourOf(navigation::State state, double alpha) {
-  return colourOf(kStateRgb[static_cast<std::size_t>(state)], alpha);
-}
 
 void FlightTrail::add(const Eigen::Vector3d& position_odom_m, navigation::State state) {
   if (!position_odom_m.allFinite()) return;

@@ -13,11 +13,6 @@
 
 namespace window_ingress::adapters {
 
-/// Colour of a navigator's state, as in plot_flight (tools/ingress_tools/flight_data.py).
-std_msgs::ColorRGBA colourOf(navigation::State state, double alpha = 1.0);
-
-constexpr int kSetpointRgb = 0xff3fa4;  ///< the navigator's setpoint
-
 /// The flown path with the state at each place. Bounded: when full, it drops every other place.
 class FlightTrail {
  public:

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
@@ -19,15 +20,6 @@ constexpr double kShaftM = 0.035, kHeadM = 0.08, kHeadLengthM = 0.14;
 constexpr double kThinnestM = 1e-3;  // rviz refuses a scale of zero
 
 }  // namespace
-
-std_msgs::ColorRGBA colourOf(int rgb, double alpha) {
-  std_msgs::ColorRGBA colour;
-  colour.r = static_cast<float>((rgb >> 16) & 0xff) / 255.0F;
-  colour.g = static_cast<float>((rgb >> 8) & 0xff) / 255.0F;
-  colour.b = static_cast<float>(rgb & 0xff) / 255.0F;
-  colour.a = static_cast<float>(alpha);
-  return colour;
-}
 
 MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id)
     : header_(headerOf(stamp, frame_id)) {}

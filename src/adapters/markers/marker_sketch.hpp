@@ -11,11 +11,6 @@
 
 namespace window_ingress::adapters {
 
-/// \param rgb 0xRRGGBB
-std_msgs::ColorRGBA colourOf(int rgb, double alpha = 1.0);
-
-constexpr int kTextRgb = 0xffffff;
-
 using Points = std::vector<Eigen::Vector3d>;
 
 /// Collects shapes in one frame at one time. A shape replaces the previous one of the same name, and vanishes

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"

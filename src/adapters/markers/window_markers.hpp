@@ -15,13 +15,6 @@
 
 namespace window_ingress::adapters {
 
-constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, if its normal is trusted
-constexpr int kOpenRgb = 0xffa500;      ///< the likelier of the two solutions
-constexpr int kMirroredRgb = 0xb05cff;  ///< the less likely solution
-constexpr int kWallRgb = 0xd8c8ab;      ///< the plane of the wall
-constexpr int kKnownRgb = 0x7fb2e5;     ///< a remembered window of unknown openness
-constexpr int kClosedRgb = 0xe74c3c;    ///< a closed window
-
 /// The opening's border in the frame `frame_id` of `T_frame_window`.
 geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_window,
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -16,6 +17,19 @@ struct SideSupport {
   double fraction = 0.0;   ///< part of the side that lies on edge pixels of its direction
   double contrast = 0.0;   ///< mean gradient under it [grey levels per pixel]
   double overshoot = 0.0;  ///< part of the stretches beyond its ends where the edge continues, as in a grid
+};
+
+/// Support of all four sides.
+struct Support {
+  explicit Support(const std::array<SideSupport, 4>& sides) {
+    for (const SideSupport& side : sides) {
+      least = std::min(least, side.fraction);
+      mean += 0.25 * side.fraction;
+      contrast = std::min(contrast, side.contrast);
+      overshoot += 0.25 * side.overshoot;
+    }
+  }
+  double least = 1.0, mean = 0.0, contrast = 255.0, overshoot = 0.0;
 };
 
 /// A quadrilateral that may be the window, in pixels of the search level, canonical order.

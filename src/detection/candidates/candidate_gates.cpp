@@ -8,30 +8,10 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kSupportLow = 0.4;         ///< support of a side that counts as none
-constexpr double kOvershootWeight = 1.0;    ///< exponent of one minus the overshoot
-constexpr double kAreaFull = 0.06;          ///< area above which size does not affect the rank [image areas]
-constexpr double kAreaWeight = 0.45;        ///< exponent of the area's part in the rank
-constexpr double kClosureWeight = 0.5;      ///< exponent of the closure's part
-constexpr double kGeometryWeight = 0.25;    ///< exponent of the geometry score if there is a reference
-constexpr double kBorderScoreWeight = 0.7;  ///< exponent of the borders' score, see ReferenceBorders
-constexpr double kBorderPart = 0.003;       ///< a corner is cut off this close to the border [longer sides]
-constexpr double kMeanSideSupport = 0.7;    ///< least mean support of the four sides
-constexpr double kMinSolidity = 0.8;        ///< area of an outline over that of its hull
+constexpr double kBorderPart = 0.003;     ///< a corner is cut off this close to the border [longer sides]
+constexpr double kMeanSideSupport = 0.7;  ///< least mean support of the four sides
+constexpr double kMinSolidity = 0.8;      ///< area of an outline over that of its hull
 constexpr double kRightAngle = 1.5707963267948966;
-
-/// Support of all four sides.
-struct Support {
-  explicit Support(const std::array<SideSupport, 4>& sides) {
-    for (const SideSupport& side : sides) {
-      least = std::min(least, side.fraction);
-      mean += 0.25 * side.fraction;
-      contrast = std::min(contrast, side.contrast);
-      overshoot += 0.25 * side.overshoot;
-    }
-  }
-  double least = 1.0, mean = 0.0, contrast = 255.0, overshoot = 0.0;
-};
 
 }  // namespace
 
@@ -66,22 +46,6 @@ std::optional<Rejection> supportFault(const Candidate& candidate, const Candidat
   if (support.contrast < params.min_contrast)
     return Rejection{RejectReason::kContrast, support.contrast, params.min_contrast};
   return std::nullopt;
-}
-
-double windowScore(const Candidate& candidate) {
-  const Support support(candidate.sides);
-  const double share = (0.5 * (support.least + support.mean) - kSupportLow) / (1.0 - kSupportLow);
-  return std::clamp(share, 0.0, 1.0) * std::pow(candidate.closure, kClosureWeight) *
-         std::pow(1.0 - support.overshoot, kOvershootWeight);
-}
-
-double scoreWithReference(double geometry, double border_score) {
-  return std::pow(geometry, kGeometryWeight) * std::pow(border_score, kBorderScoreWeight);
-}
-
-double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image) {
-  const double area = std::abs(geometry::signedArea(quad)) / std::max(1, image.area());
-  return std::pow(std::min(1.0, area / kAreaFull), kAreaWeight);
 }
 
 }  // namespace window_ingress::detection

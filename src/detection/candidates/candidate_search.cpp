@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "detection/candidates/candidate_gates.hpp"
+#include "detection/candidates/candidate_score.hpp"
 #include "detection/candidates/side_support.hpp"
 #include "detection/quad_sameness.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/candidate_score.hpp"
 #include "detection/quad_sameness.hpp"
 #include "detection/reference/haze.hpp"
 

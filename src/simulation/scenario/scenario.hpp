@@ -11,6 +11,7 @@
 #include "simulation/scenario/house_params.hpp"
 #include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
+#include "simulation/scenario/wind_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/text/text.hpp"

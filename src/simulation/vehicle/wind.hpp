@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "simulation/scenario/quadrotor_params.hpp"
+#include "simulation/scenario/wind_params.hpp"
 #include "simulation/vehicle/dryden_gusts.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
 #include "window_ingress/geometry/opening.hpp"

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"

@@ -1,13 +1,11 @@
+#include "adapters/markers/marker_colours.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
-
-#include "adapters/markers/flight_markers.hpp"
-#include "adapters/markers/marker_sketch.hpp"
-#include "adapters/markers/window_markers.hpp"
 
 namespace window_ingress::adapters::marker_colours_test {
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 
 namespace window_ingress::adapters::marker_sketch_test {
 

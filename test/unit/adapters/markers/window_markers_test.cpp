@@ -7,6 +7,7 @@
 #include <map>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -91,21 +91,4 @@ TEST(CandidateGates, TheSameForMirroredAndScaledCandidates) {
   }
 }
 
-TEST(WindowScore, LiesBetweenNoneAndOneAndFallsWithSupport) {
-  Candidate c = good();
-  EXPECT_NEAR(windowScore(c), 1.0, 1e-9);
-  double before = 1.0;
-  for (double fraction : {0.9, 0.7, 0.5, 0.2, 0.0}) {
-    c.sides[3].fraction = fraction;
-    EXPECT_LT(windowScore(c), before);
-    EXPECT_GE(windowScore(c), 0.0);
-    before = windowScore(c);
-  }
-}
-
-TEST(WindowScore, SizeRanksButIsNoConfidence) {
-  EXPECT_LT(sizeRank(test::rectangle(0, 0, 10, 10), kImage), sizeRank(good().quad, kImage));
-  EXPECT_EQ(sizeRank(test::rectangle(0, 0, 319, 239), kImage), 1.0);
-}
-
 }  // namespace window_ingress::detection::candidate_gates_test
