@@ -57,7 +57,6 @@ void TargetEstimator::reset() {
   checks_->clear();
   clocks_.clear();
   facade_.reset();
-  handled_given_up_ = 0;
 }
 
 void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
@@ -196,8 +195,9 @@ Reply TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
 void TargetEstimator::addNavigatorState(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up,
                                         bool next_one) {
   facade_.noteFlownAt(flown_at);
-  handled_given_up_ = std::min(handled_given_up_, given_up.size());  // another mission began
-  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(handled_given_up_),
+  // Windows have new numbers after a start of this node or `reset`; fewer windows: another mission began.
+  const std::size_t handled = std::min(handled_given_up_.value_or(given_up.size()), given_up.size());
+  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(handled),
                                         given_up.end());
   handled_given_up_ = given_up.size();
   if (news.empty()) return;
@@ -250,7 +250,6 @@ std::optional<TargetEstimate> TargetEstimator::target(double now_sec) const {
   target.sign_trusted = window->sign_trusted;
   target.motion = window->motion;
   target.pose_stamp_sec = window->stamp_sec + window->age_sec;
-  target.updates = window->updates;
   target.opening = window->size.size;
   target.fit = fit(*window).fit;
   target.approach_forbidden = approachForbidden(*window);

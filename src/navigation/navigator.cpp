@@ -111,8 +111,7 @@ struct Navigator::Impl {
   // The mission does not exchange a window that it flies at, and flies at none from behind. COMMIT judges its
   // own sightings.
   void keepToWindow(Situation& situation) const {
-    if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle)
-      return;
+    if (state == State::kCommit || !situation.target || !situation.vehicle) return;
     const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, mission);
     if (why_not.empty()) return;
     situation.target.reset();
@@ -124,7 +123,7 @@ struct Navigator::Impl {
     const auto stop = [](Event event, const std::string& why) { return Decision{{}, false, event, why}; };
     if (!isLive()) return staying();
     if (!input.engaged) return stop(Event::kDisengaged, "the vehicle no longer follows setpoints");
-    const std::string timed_out = whatTimedOut(state, clock, params.timeouts);
+    const std::string timed_out = whatTimedOut(state, clock, mission, params);
     if (!timed_out.empty()) return stop(Event::kGiveUp, timed_out + byFence());
     if (mission.from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
       return stop(Event::kGiveUp, "outside the fence");
@@ -137,7 +136,10 @@ struct Navigator::Impl {
   Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere) {
     if (auto overruled = overrule(input, situation)) return *overruled;
     if (!elsewhere.empty() && isFlownAt()) return {{}, true, Event::kOtherWindow, elsewhere};
-    return behave(situation);
+    Decision decision = behave(situation);
+    if (decision.event == Event::kOtherWindow) leaveOtherWindow(situation, mission);
+    turnToNextWindow(state, params, mission, decision);
+    return decision;
   }
 
   Decision behave(const Situation& situation) {
@@ -273,7 +275,6 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   self.observe(situation);
   self.remember(situation, input);
   Decision decision = self.decide(input, situation, elsewhere);
-  turnToNextWindow(self.state, self.params, self.mission, decision);
   self.reason = decision.reason;
   const auto to = decision.event ? next(self.state, *decision.event) : std::nullopt;
   if (to) {

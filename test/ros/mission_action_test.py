@@ -16,7 +16,8 @@ import rospy
 import rostest
 from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import Twist, TwistStamped, Vector3
+from std_msgs.msg import Header
 from std_srvs.srv import SetBool
 from window_ingress.msg import IngressAction, IngressActionResult, IngressGoal, IngressResult, IngressState
 
@@ -278,6 +279,19 @@ class MissionActionTest(unittest.TestCase):
         self.assertIn("disabled (~enable)", call("start").message)
         self.assertTrue(enable(True).success)
         self.setpoints.wait(support.is_zero, "zeros in IDLE")
+
+    def test_disabled_behind_the_window_it_gives_up_its_place(self):
+        self.fly_to("PASSED")
+        enable(False)
+        others = rospy.Publisher("cmd_vel", TwistStamped, queue_size=1)
+        begin = time.monotonic()
+        while time.monotonic() < begin + 2.0:  # less than hold/leash_m
+            others.publish(TwistStamped(header=Header(stamp=rospy.Time.now()), twist=Twist(linear=Vector3(x=0.4))))
+            rospy.rostime.wallsleep(0.05)
+        enable(True)
+        begin = time.monotonic()
+        support.wait_for(lambda: time.monotonic() > begin + 1.0, "the time of the measurement")
+        self.assertTrue(all(support.is_zero(s) for s in self.setpoints.since(begin)))
 
     def test_disabled_before_its_first_step_it_does_not_fly(self):
         for _ in range(5):

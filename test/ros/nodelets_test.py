@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The nodelets work like the nodes, in one process. One can be unloaded and loaded again without harm to the others."""
+"""The nodelets work like the nodes, in one process, whose manager has another namespace. One can be unloaded and loaded again without harm to the others."""
 import os
 import subprocess
 import sys
@@ -11,10 +11,12 @@ import rostest
 from nav_msgs.msg import Odometry
 from roslib.packages import find_node
 from sensor_msgs.msg import CameraInfo, Image, Imu
+from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowDetection, WindowPose
 
 import support
 
+start = rospy.ServiceProxy("/ingress_navigator/start", Trigger)
 NODELET = ("rosrun", "nodelet", "nodelet")  # its services have no Python types on Debian
 
 
@@ -43,9 +45,11 @@ class NodeletsTest(unittest.TestCase):
             self.assertIn(words, said)
 
     def test_3_one_of_them_is_taken_out_and_put_in_again(self):
-        subprocess.run([*NODELET, "unload", "/window_detector", "/manager"], check=True, timeout=support.DEADLINE_S)
+        subprocess.run([*NODELET, "unload", "/window_detector", "/camera/manager"], check=True, timeout=support.DEADLINE_S)
+        support.wait_for(lambda: "window_detector says nothing" in start().message, "the navigator's word for it")
+        self.assertNotIn("homography_pose says nothing", start().message)
         begin = time.monotonic()
-        loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/manager",
+        loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/camera/manager",
                                    "__name:=window_detector_again"])
         try:
             self.windows.wait(lambda w: w.detected, "a window after it", begin=begin)

@@ -32,8 +32,6 @@ struct NavigatorNodeParams {
   double rate_hz = 30.0;                ///< rate of the setpoints [Hz]
   double max_silence_sec = 0.25;        ///< odometry is lost after this long without a message (steady clock)
                                         ///< [s]
-  double max_pose_silence_sec = 1.5;    ///< window_pose is lost after this long without a message (steady
-                                        ///< clock) [s]
   std::string setpoint_frame = "odom";  ///< axes of the setpoints, whatever names these frames have
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
   bool start_at_once = false;  ///< start the mission at the first step that allows it; only in lockstep
@@ -44,7 +42,6 @@ struct NavigatorNodeParams {
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 20.0, 200.0);
     field("max_silence_sec", self.max_silence_sec, 0.05, 5.0);
-    field("max_pose_silence_sec", self.max_pose_silence_sec, 0.05, 5.0);
     field.choice("setpoint_frame", self.setpoint_frame, {"odom", "base_link"});
     field("lockstep", self.lockstep);
     field("start_at_once", self.start_at_once);

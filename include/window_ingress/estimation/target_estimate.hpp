@@ -22,7 +22,6 @@ struct TargetEstimate {
   /// Motion of a moving window; pose and motion are those at `pose_stamp_sec`, see `ahead`.
   TargetMotion motion;
   double pose_stamp_sec = 0.0;
-  int updates = 0;  ///< images that contributed since the window was last acquired
   geometry::OpeningSize opening;
   /// GO: the vehicle fits; UNKNOWN: the size of the opening is not known yet.
   Fit fit = Fit::kGo;

@@ -142,7 +142,7 @@ class TargetEstimator {
   ClockCheck clocks_;
   openness::OpennessJudge judge_;
   facade::FacadeMemory facade_;
-  std::size_t handled_given_up_ = 0;  ///< number of abandoned windows already processed
+  std::optional<std::size_t> handled_given_up_;  ///< number of abandoned windows already processed
   bool size_is_known_;
   bool mounting_is_sure_;  ///< stated as sure, so it is not verified
   double attitude_sigma_rad_;

@@ -188,7 +188,7 @@ struct HoldParams {
 struct TimeoutParams {
   double search_sec = 90.0;    ///< longest SEARCH [s]
   double align_sec = 40.0;     ///< longest ALIGN [s]
-  double approach_sec = 40.0;  ///< longest APPROACH [s]
+  double approach_sec = 40.0;  ///< longest APPROACH; `commit/ask_sec` more once the operator is asked [s]
   double commit_sec = 15.0;    ///< longest COMMIT [s]
   double back_off_sec = 20.0;  ///< longest BACK_OFF [s]
   double total_sec = 180.0;    ///< longest mission [s]

@@ -40,15 +40,6 @@ inline const char* toString(State state) {
   return at < kNames.size() ? kNames[at] : "UNKNOWN";
 }
 
-inline const char* toString(Event event) {
-  constexpr std::array<const char*, kEventCount> kNames{
-      "start",       "window found", "aligned",     "misaligned", "commit reached", "commit criterion unmet",
-      "crossed",     "other window", "window lost", "backed off", "reacquired",     "resumed",
-      "input stale", "input fresh",  "give up",     "disengaged", "abort",          "reset"};
-  const auto at = static_cast<std::size_t>(event);
-  return at < kNames.size() ? kNames[at] : "unknown";
-}
-
 struct Transition {
   State from;
   Event event;

@@ -80,7 +80,7 @@ struct VehicleParams {
     CameraInBody::visit(self.camera, field);
     field("exposure_sec", self.exposure_sec, 0.0, 0.5);
     field("image_is_rectified", self.image_is_rectified);
-    field("response_sec", self.response_sec, 0.0, 2.0);
+    field("response_sec", self.response_sec, 0.05, 2.0);
     field("braking_mps2", self.braking_mps2, 0.2, 10.0);
     field("odom_drift_m_per_sqrt_sec", self.odom_drift_m_per_sqrt_sec, 0.0, 1.0);
     FrameNames::visit(self.frames, field);

@@ -202,7 +202,6 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
   target.motion = fromMsg(filtered.motion);
   target.pose_stamp_sec = *stamp_sec + filtered.age;
   target.sign_trusted = filtered.sign_trusted != 0;
-  target.updates = static_cast<int>(std::min<std::uint32_t>(filtered.updates, 1u << 30));
   target.opening = opening;
   target.approach_forbidden = checks.approach_forbidden;
   target.unverified = checks.unverified;

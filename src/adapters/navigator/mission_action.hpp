@@ -151,6 +151,7 @@ class MissionAction {
   }
 
   void start() {
+    if (const std::string flying = mission_.flying(); !flying.empty()) return refuse(goal_, flying);
     const Goal& goal = *goal_.getGoal();
     const Reply reply = mission_.start({kOpenings.at(goal.unverified_opening), kGlass.at(goal.glass)});
     if (!reply.success) return refuse(goal_, reply.message);

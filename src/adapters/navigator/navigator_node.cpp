@@ -243,13 +243,9 @@ void NavigatorNode::reportHealth() {
   });
 }
 
-// Drops inputs that no longer arrive, whatever their stamps: the ROS clock may stand still.
+// Drops odometry that no longer arrives, whatever its stamps: the ROS clock may stand still.
 void NavigatorNode::forgetSilentInputs() {
   if (odom_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
-  if (pose_.silentSec() > params_.max_pose_silence_sec) {
-    input_.target.reset();
-    input_.camera_fault.clear();
-  }
   input_.engaged = engagement_.holds(steadyNowSec());
   input_.passed_on = guard_.passesOn();
 }

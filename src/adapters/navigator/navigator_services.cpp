@@ -106,6 +106,7 @@ Reply NavigatorNode::enable(bool wanted) {
   if (wanted) return {true, "enabled: zeros in IDLE, ~start may be called"};
   const bool flies = !whyFlying().empty();
   if (flies) abortMission("aborted: disabled (~enable)");
+  if (!flies && last_.state == State::kPassed) navigator_.abort("");  // keeps its place no longer
   return {true, std::string(flies ? "aborted, " : "") +
                     "disabled: starts nothing and sends nothing; the guard sends zeros "
                     "for setpoint_guard/stop_streaming_after_sec more"};

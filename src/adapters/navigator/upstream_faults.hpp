@@ -2,7 +2,6 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/node_handle.h>
-#include <ros/this_node.h>
 
 #include <map>
 #include <string>
@@ -16,7 +15,9 @@ namespace window_ingress::adapters {
 /// sees neither itself, but must say why it does not start.
 class UpstreamFaults {
  public:
-  UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics) {
+  /// \param nh in the namespace of the other nodes; that of a nodelet's process may be another
+  UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics)
+      : prefix_(nh.getNamespace() == "/" ? "" : nh.getNamespace().substr(1) + "/") {
     subscriber_ = diagnostics.subscribe(nh, "/diagnostics", 20, &UpstreamFaults::hear, this);
   }
 
@@ -53,13 +54,11 @@ class UpstreamFaults {
     std::string text;
   };
   void hear(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
-    const std::string& space = ros::this_node::getNamespace();
-    const std::string own = space.size() > 1 ? space.substr(1) + "/" : "";
     for (const auto& status : message->status) {
       for (auto& [node, heard_sec] : heard_sec_)
-        if (status.name.rfind(own + node + ": ", 0) == 0) heard_sec = steadyNowSec();
+        if (status.name.rfind(prefix_ + node + ": ", 0) == 0) heard_sec = steadyNowSec();
       for (const char* input : kInputs)
-        if (status.name == own + input) {
+        if (status.name == prefix_ + input) {
           faults_.erase(input);
           if (status.level >= diagnostic_msgs::DiagnosticStatus::ERROR ||
               status.message.find(kDoesNotFollow) != std::string::npos)
@@ -68,6 +67,7 @@ class UpstreamFaults {
     }
   }
 
+  std::string prefix_;                   // of the names of their statuses
   std::map<std::string, Fault> faults_;  // by name of the status
   std::map<std::string, double> heard_sec_{{"window_detector", steadyNowSec()},
                                            {"homography_pose", steadyNowSec()}};

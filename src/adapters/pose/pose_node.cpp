@@ -116,8 +116,10 @@ class PoseNode : public Node {
     const auto attitude = fromMsg(*message, vehicle_.frames.base);
     if (!attitude) return imu_->refused(attitude.reason);
     imu_->accepted();
-    imu_->stamped(attitude.value->stamp_sec);
-    estimator_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
+    double stamp_sec = attitude.value->stamp_sec;
+    imu_->stamped(stamp_sec);
+    if (!lockstep_) stamp_sec = imu_clock_.atReceiver(stamp_sec, ros::Time::now().toSec());
+    estimator_.addAttitude(stamp_sec, attitude.value->R_odom_base);
   }
 
   // An image waits until odometry has reached its exposure, because poses are interpolated, not extrapolated.
@@ -230,6 +232,7 @@ class PoseNode : public Node {
   void forget() {
     odometry_stamp_sec_ = -1.0;
     odom_clock_.clear();
+    imu_clock_.clear();
     pending_.reset();
     estimator_.reset();
     consistency_ = estimation::Consistency();
@@ -262,7 +265,7 @@ class PoseNode : public Node {
   TopicInput window_, odom_;
   std::optional<TopicInput> imu_;
   std::optional<Lockstep> lockstep_;
-  estimation::SenderClock odom_clock_;
+  estimation::SenderClock odom_clock_, imu_clock_;
   navigation::EmptyTwist twist_;
   ClockWatch clock_;
   CameraSource camera_;

@@ -70,7 +70,8 @@ class Align : public Behaviour {
   Align(const NavigatorParams& params, double now_sec) : Behaviour(params), ambiguous_since_sec_(now_sec) {}
 
   Decision step(const Situation& situation, MissionState& mission) override {
-    if (auto other = leaveOtherWindow(situation, mission)) return *other;
+    if (const std::string why = whyOtherWindow(*situation.target); !why.empty())
+      return {{}, true, Event::kOtherWindow, why};
     const RelativeState relative = relate(*situation.vehicle, *situation.target);
     Decision decision;
     decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, situation, *params_);

@@ -19,7 +19,8 @@ class Approach : public Behaviour {
   using Behaviour::Behaviour;
 
   Decision step(const Situation& situation, MissionState& mission) override {
-    if (auto other = leaveOtherWindow(situation, mission)) return *other;
+    if (const std::string why = whyOtherWindow(*situation.target); !why.empty())
+      return {{}, true, Event::kOtherWindow, why};
     const auto& target = *situation.target;
     const RelativeState relative = relate(*situation.vehicle, target);
     // Towards the window's centre; near the wall along its normal, because a turned body is wider.

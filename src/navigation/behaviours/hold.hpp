@@ -55,11 +55,14 @@ class Hold : public Behaviour {
 
   std::optional<Event> wayOn(const Situation& situation, const MissionState& mission,
                              std::string& reason) const {
+    if (!mission.trusted && !mission.was_in_front) {
+      reason = "the vehicle is in an opening whose place is unknown";
+      return Event::kGiveUp;
+    }
     if (from_ == State::kCommit) {
       if (Commit::canResume(situation, mission, *params_)) return Event::kResumed;
       reason = "the commit cannot be resumed";
       if (mission.trusted) return Event::kWindowLost;
-      if (!mission.was_in_front) return Event::kGiveUp;  // the opening's place is unknown
       return situation.target ? std::optional(Event::kReacquired) : std::nullopt;
     }
     if (situation.target) {

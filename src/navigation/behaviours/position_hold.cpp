@@ -54,8 +54,7 @@ void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& p
   const auto isTorn = [&](const Eigen::Vector3d& position_m) {
     return mission.place_odom_m && (*mission.place_odom_m - position_m).norm() > params.leash_m;
   };
-  if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
-      isTorn(situation.vehicle->T_odom_base.translation())) {
+  if (!is_kept || !situation.vehicle || isTorn(situation.vehicle->T_odom_base.translation())) {
     mission.place_odom_m.reset();
     mission.keeping_since_sec.reset();
     return;

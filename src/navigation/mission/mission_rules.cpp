@@ -19,10 +19,14 @@ double timeoutOf(State state, const TimeoutParams& timeouts) {
 }
 }  // namespace
 
-std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts) {
-  if (clock.inMissionSec() > timeouts.total_sec)
+std::string whatTimedOut(State state, const MissionClock& clock, const MissionState& mission,
+                         const NavigatorParams& params) {
+  if (clock.inMissionSec() > params.timeouts.total_sec)
     return std::string("mission timed out in ") + toString(state);
-  if (clock.inStateSec() > timeoutOf(state, timeouts)) return std::string(toString(state)) + " timed out";
+  const bool asked = state == State::kApproach && (mission.opening_asked || mission.opening_confirmed);
+  const double wait_sec = asked ? params.commit.ask_sec : 0.0;
+  if (clock.inStateSec() > timeoutOf(state, params.timeouts) + wait_sec)
+    return std::string(toString(state)) + " timed out";
   return "";
 }
 

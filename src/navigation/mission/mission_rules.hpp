@@ -13,7 +13,9 @@
 namespace window_ingress::navigation {
 
 /// Timeout of the mission or of this state, as text; empty if none. HOLD has its own (`hold/timeout_sec`).
-std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts);
+/// The operator's answer may take `commit/ask_sec` more.
+std::string whatTimedOut(State state, const MissionClock& clock, const MissionState& mission,
+                         const NavigatorParams& params);
 
 /// The first missing input of this state; empty if none is missing.
 std::string missingInput(State state, const Situation& situation);

@@ -1,5 +1,6 @@
 #include "navigation/mission/start_conditions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "window_ingress/parameters/fields.hpp"
@@ -16,7 +17,13 @@ NavigatorParams checked(NavigatorParams params) {
     faults.push_back(
         "vehicle/braking_mps2 must not exceed limits/acceleration_mps2: setpoints could not brake so hard; "
         "lower the former, unless the vehicle may accelerate more");
+  if (params.commit.exit_distance_m < 2.0 * params.vehicle.half_length_m)
+    faults.push_back(
+        "commit/exit_distance_m must be the vehicle's length or more (twice vehicle/half_length_m): it would "
+        "end "
+        "in the opening");
   parameters::throwIfAny(faults, "navigator");
+  params.commit.speed_mps = std::min(params.commit.speed_mps, params.limits.speed_mps);
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;
 }

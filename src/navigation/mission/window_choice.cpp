@@ -16,21 +16,19 @@ bool wasLeftForGood(const TargetEstimate& target, const MissionState& mission) {
                      });
 }
 
-std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& mission) {
+std::string whyOtherWindow(const TargetEstimate& target) {
+  return target.other_window ? target.approach_forbidden : whyClosed(target);
+}
+
+void leaveOtherWindow(const Situation& situation, MissionState& mission) {
   const auto& target = *situation.target;
-  if (!target.other_window) {
-    const std::string closed = whyClosed(target);
-    if (closed.empty()) return std::nullopt;
-    mission.giveUpWindow(target);
-    return Decision{{}, true, Event::kOtherWindow, closed};
-  }
+  if (!target.other_window) return mission.giveUpWindow(target);
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
   mission.others_odom_m.push_back(position +
                                   *target.other_window * (target.T_odom_window.translation() - position));
   ++mission.others;
   if (target.window_id != 0) mission.given_up.push_back(target.window_id);
   mission.leaveWindow();
-  return Decision{{}, true, Event::kOtherWindow, target.approach_forbidden};
 }
 
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& mission) {

@@ -36,6 +36,7 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
       return std::nullopt;
     }
     second_.clear();
+    differences_.clear();
     apart_.reset();
   }
   const bool comes_back = headingComesBack(turned_rad);

@@ -155,9 +155,9 @@ std::string InputMonitor::takeSample(const VehicleState& sample, bool is_newer, 
   if (is_newer) arrived_sec_ = now_sec;
   const double missing_sec = now_sec - arrived_sec_;
   if (missing_sec > kMissingSec) return formatted("odometry: none for %.2f s", missing_sec);
-  const bool is_stuck = is_newer && isStuck(sample);
+  if (is_newer) watchRepeats(sample);
   vehicle_ = sample;
-  if (is_stuck) return formatted("odometry stuck for %.2f s", sample.stamp_sec - unchanged_since_sec_);
+  if (is_stuck_) return formatted("odometry stuck for %.2f s", sample.stamp_sec - unchanged_since_sec_);
   if (const std::string empty = empty_twist_.look(sample); !empty.empty()) return "odometry: its " + empty;
   return "";
 }
@@ -171,7 +171,7 @@ void InputMonitor::told(const Setpoint& setpoint, double now_sec) {
 }
 
 // A working sensor's noise never repeats itself, and a moving vehicle changes its place.
-bool InputMonitor::isStuck(const VehicleState& vehicle) {
+void InputMonitor::watchRepeats(const VehicleState& vehicle) {
   const bool repeats = vehicle_ && vehicle.T_odom_base.matrix() == vehicle_->T_odom_base.matrix() &&
                        vehicle.velocity_odom_mps == vehicle_->velocity_odom_mps;
   if (!repeats) unchanged_since_sec_ = vehicle.stamp_sec;
@@ -180,7 +180,6 @@ bool InputMonitor::isStuck(const VehicleState& vehicle) {
   const bool ought_to_move = told_to_move_sec_ && vehicle.stamp_sec - *told_to_move_sec_ > kDeadTimeSec;
   is_stuck_ = repeats && (is_stuck_ || (says_to_move && for_sec > kRepeatsSec) ||
                           (ought_to_move && for_sec > kDeadTimeSec));
-  return is_stuck_;
 }
 
 void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation) {

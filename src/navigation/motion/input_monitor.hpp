@@ -68,7 +68,8 @@ class InputMonitor {
   std::string takeSample(const VehicleState& sample, bool is_newer, double now_sec);
   void judgeTarget(const NavigatorInput& input, Situation& situation);
   void judgeImage(const NavigatorInput& input, Situation& situation);
-  bool isStuck(const VehicleState& vehicle);
+  /// Finds out whether odometry has stopped: `is_stuck_`.
+  void watchRepeats(const VehicleState& vehicle);
   TargetEstimate inSmooth(TargetEstimate target) const;
   bool acceptTarget(const TargetEstimate& target, double now_sec);
 

@@ -117,7 +117,6 @@ Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, Stat
 
 bool isHeldByFence(const Eigen::Vector3d& velocity_odom_mps, const Situation& situation,
                    const MissionState& mission, const NavigatorParams& params) {
-  if (!situation.vehicle) return false;
   const Eigen::Vector3d within =
       withinFence(velocity_odom_mps, situation.vehicle->T_odom_base.translation(), mission, params);
   return within.norm() < 0.1 && (velocity_odom_mps - within).norm() > 1e-3;

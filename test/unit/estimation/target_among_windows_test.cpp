@@ -75,4 +75,18 @@ TEST(TargetAmongWindows, TheOneInUseIsGivenUpAndTheNextTakenWhereThatIsAllowed) 
   }
 }
 
+// The navigator goes on naming windows of the last mission, by numbers from before the reset.
+TEST(TargetAmongWindows, AfterAResetOldNumbersSayNothingOfNewWindows) {
+  Watch watch;
+  watch.estimator.addNavigatorState(0, {}, false);
+  watch.look(60, 2);
+  const std::uint32_t id = watch.estimator.target(watch.now_sec)->window_id;
+  watch.estimator.addNavigatorState(0, {id}, false);
+  watch.estimator.reset();
+  watch.look(60, 2);
+  watch.estimator.addNavigatorState(0, {id}, false);
+  ASSERT_TRUE(watch.estimator.target(watch.now_sec));
+  EXPECT_EQ(watch.estimator.target(watch.now_sec)->window_id, id) << "numbered anew";
+}
+
 }  // namespace window_ingress::estimation::target_among_windows_test

@@ -153,10 +153,12 @@ TEST(NavigatorEdges, CommitAndBackOffTimeOutByName) {
   for (const State state : {State::kCommit, State::kBackOff}) {
     NavigatorParams params = test::withoutGlass();
     params.timeouts.commit_sec = params.timeouts.back_off_sec = 1.0;
+    params.search.next_window = true;  // a vehicle that cannot retreat must not turn to another window
     Mission mission(params);
     mission.leadInto(state);
     ASSERT_EQ(mission.output.state, state);
     mission.stay(31, state == State::kCommit);
+    EXPECT_EQ(mission.output.state, State::kAborted);
     EXPECT_EQ(mission.output.reason, std::string(toString(state)) + " timed out");
   }
 }
@@ -170,6 +172,19 @@ TEST(NavigatorEdges, ApproachLeavesAnotherWindow) {
   input.target->approach_forbidden = "another window";
   mission.step(input);
   EXPECT_EQ(mission.output.state, State::kSearch);
+}
+
+TEST(NavigatorEdges, AClosedWindowIsGivenUpOnce) {
+  Mission mission;
+  mission.leadInto(State::kSearch);
+  for (int i = 0; i < 30 && mission.output.report.given_up.empty(); ++i) {
+    auto input = test::inputAt(mission.at, mission.now + kStep);
+    input.target->window_id = 3;
+    input.target->openness.openness = openness::Openness::kClosed;
+    mission.step(input);
+  }
+  mission.stay(10, false);
+  EXPECT_EQ(mission.output.report.given_up, std::vector<std::uint32_t>{3});
 }
 
 /// Odometry is missing for a moment during COMMIT, without images before and after.

@@ -154,7 +154,6 @@ TEST(WindowPose, FilteredWindowBecomesTheTarget) {
   EXPECT_EQ(target.value->covariance(1, 2), 0.25);
   EXPECT_EQ(target.value->covariance(2, 1), 0.0) << "row-major";
   EXPECT_TRUE(target.value->sign_trusted);
-  EXPECT_EQ(target.value->updates, 9);
   EXPECT_EQ(target.value->opening.width_m, 1.2);
 }
 

@@ -84,6 +84,7 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kReacquired);
   nothing.was_in_front = false;
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kGiveUp);
+  EXPECT_EQ(wayOutOf(State::kBackOff, nothing, true, false), Event::kGiveUp) << "may be in the opening";
   EXPECT_EQ(wayOutOf(State::kCommit, committed, false, true), Event::kGiveUp);
 }
 

@@ -63,7 +63,7 @@ TEST(PositionHold, IsForgottenWhenNotWantedAndWithItsOdometry) {
   EXPECT_FALSE(mission.place_odom_m) << "no odometry";
   set();
   auto jumped = standingAt({5, 0, 1});
-  jumped.vehicle_jumped = true;
+  jumped.vehicle.reset();
   rememberPlace(true, jumped, params, mission);
   EXPECT_FALSE(mission.place_odom_m);
   set();

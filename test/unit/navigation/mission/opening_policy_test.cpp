@@ -132,13 +132,12 @@ TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
   Situation situation;
   situation.vehicle = test::vehicleAt({-4, 0, 1.5}, 0.0);
   situation.target = test::targetAtOrigin(0.0);
-  EXPECT_FALSE(leaveOtherWindow(situation, mission));
+  EXPECT_EQ(whyOtherWindow(*situation.target), "");
   mission.trusted = situation.target;
   mission.opening_confirmed = true;
   situation.target->openness.openness = Openness::kClosed;
-  const auto decision = leaveOtherWindow(situation, mission);
-  ASSERT_TRUE(decision);
-  EXPECT_EQ(decision->event, Event::kOtherWindow);
+  EXPECT_NE(whyOtherWindow(*situation.target), "");
+  leaveOtherWindow(situation, mission);
   EXPECT_FALSE(mission.trusted || mission.opening_confirmed);
   mission.forgetWindow();  // after a full turn
   EXPECT_TRUE(isKnownOther(*situation.target, *situation.vehicle, mission));
@@ -264,6 +263,22 @@ TEST(OpeningPolicy, StandsStillWhileItAsksAboutOneThatIsSeenToBeOpen) {
   EXPECT_EQ(flight.mission.last.state, State::kAborted) << flight.mission.last.reason;
   EXPECT_LT(flight.furthest_in_m, -0.6);
   EXPECT_LT(std::max(flight.left_m, -flight.right_m), 0.1);
+}
+
+TEST(OpeningPolicy, WaitsForTheAnswerAsLongAsItSays) {
+  NavigatorParams params;
+  params.commit.ask_sec = params.timeouts.approach_sec + 10.0;
+  test::KinematicPlant plant{test::PlantParams()};
+  Navigator navigator{params};
+  double asked_sec = 0.0;
+  bool backed_off = false;
+  flown(plant, navigator, [&](const NavigatorOutput& output) {
+    const bool asks = output.reason.find("confirm_opening") != std::string::npos;
+    backed_off |= output.state == State::kBackOff;
+    if (asks && !backed_off) asked_sec += test::KinematicPlant::kStepSec;
+  });
+  EXPECT_TRUE(backed_off) << "not aborted in front of the wall";
+  EXPECT_GT(asked_sec, params.commit.ask_sec - 1.0);
 }
 
 /// The verdict changes at random and is OPEN half of the time.

@@ -96,7 +96,7 @@ TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
   MissionState mission;
   mission.trusted = test::targetAtOrigin(1.0);
   Decision decision;
-  decision.event = Event::kGiveUp;  // a time-out
+  decision.event = Event::kGiveUp;
   turnToNextWindow(State::kApproach, params, mission, decision);
   EXPECT_EQ(decision.event, Event::kGiveUp);
   decision.event = Event::kReacquired;
@@ -116,6 +116,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   situation.target->approach_forbidden = "another window: about 0.5 times as large";
   const Decision decision = align.step(situation, mission);
   EXPECT_EQ(decision.event, Event::kOtherWindow);
+  leaveOtherWindow(situation, mission);
   EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
   EXPECT_NE(decision.reason.find("0.5 times"), std::string::npos);
   ASSERT_EQ(mission.others_odom_m.size(), 1u);

@@ -231,6 +231,20 @@ TEST(ContinuousOdometry, AHeadingThatComesBackWhileTheVehicleHoversTurnsNoAxes) 
   EXPECT_EQ(wrong, 0);
 }
 
+// A displacement in a gap is no error of the velocity.
+TEST(ContinuousOdometry, AGapChangesNoVelocityAfterIt) {
+  Curve curve;
+  ContinuousOdometry continuous;
+  for (int i = 0; i < 600; ++i) continuous.add(curve.step());
+  for (int i = 0; i < 9; ++i) curve.step();  // lost
+  curve.shift.x() = 0.3;
+  for (int i = 0; i < 30; ++i) {
+    const auto smooth = continuous.add(curve.step());
+    ASSERT_TRUE(smooth);
+    EXPECT_LT((continuous.unbiased(*smooth) - curve.velocity()).norm(), 0.1) << i;
+  }
+}
+
 // Then neither the motion of the position nor the turned motion agrees with the velocity.
 TEST(ContinuousOdometry, AHeadingThatJumpsBesideAVelocityThatWandersTurnsNoAxes) {
   int wrong = 0;
