@@ -13,9 +13,11 @@ import sys
 import cv2
 import numpy
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
+from evaluate_photos import corners_in_reference
+
 IMAGES = 8
 BAG_START_SEC = 4.0  # from here on the target is in view
-MARGIN = 0.25  # around the opening in a photographed reference [sides of the opening]
 
 # name: (file in photos/images, scene of its reference)
 PHOTOGRAPHS = {
@@ -55,15 +57,9 @@ def leave_out(name, why):
     print(f"bench: without {name}: {why}")
 
 
-def rectangle(left, top, right, bottom):
-    return [left, top, right, top, right, bottom, left, bottom]
-
-
 def photographed_reference(photos, scene):
-    image = cv2.imread(os.path.join(photos, "refs", scene + "_m.png"))
-    height, width = image.shape[:2]
-    border = MARGIN / (1 + 2 * MARGIN)
-    return image, rectangle(border * width, border * height, (1 - border) * width, (1 - border) * height)
+    path = os.path.join(photos, "refs", scene + "_m.png")
+    return cv2.imread(path), [float(value) for value in corners_in_reference(path).split(",")]
 
 
 def add_photographs(frames, photos):

@@ -168,7 +168,6 @@ KINDS = {"shadow": shadow, "overcast": overcast, "dusk": dusk, "wet": wet, "expo
 
 def redraw(views, folder, kind):
     folder.mkdir(parents=True, exist_ok=True)
-    shutil.copy(views / "truth.csv", folder)
     for row in rows_of(views / "truth.csv"):
         name = f"{row['scenario']}_{row['seed']}"
         for ending in (".reference.png", ".camera.yaml"):
@@ -180,6 +179,7 @@ def redraw(views, folder, kind):
             quad = np.array([[0.3, 0.3], [0.7, 0.3], [0.7, 0.7], [0.3, 0.7]]) * image.shape[1::-1]
         drawn = KINDS[kind](image, quad, np.random.default_rng(zlib.crc32(f"{kind} {name}".encode())))
         cv2.imwrite(str(folder / f"{name}.png"), np.clip(np.round(drawn), 0, 255).astype(np.uint8))
+    shutil.copy(views / "truth.csv", folder)  # last: its presence says that all are drawn
 
 
 def counts(file):
@@ -216,7 +216,8 @@ def main():
     for kind in options.kinds:
         views, results = options.output / kind / "views", options.output / kind
         try:
-            if not (views / "truth.csv").exists():
+            drawn, asked = views / "truth.csv", options.views / "truth.csv"
+            if not drawn.exists() or drawn.read_bytes() != asked.read_bytes():
                 redraw(options.views, views, kind)
         except OSError as error:
             print(f"evaluate_light_and_cover: {error.filename}: {error.strerror}", file=sys.stderr)

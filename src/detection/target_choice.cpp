@@ -179,6 +179,12 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
   return window;
 }
 
+void TargetChoice::chooseAgain(int target) {
+  trace_.candidates[static_cast<std::size_t>(trace_.target)].reject = RejectReason::kOutscored;
+  trace_.candidates[static_cast<std::size_t>(target)].reject = RejectReason::kNone;
+  trace_.target = target;
+}
+
 void TargetChoice::takeBack() {
   CandidateTrace& chosen = trace_.candidates[static_cast<std::size_t>(trace_.target)];
   chosen.reject = RejectReason::kUnlike, chosen.value = 0.0, chosen.limit = params_.min_correlation;

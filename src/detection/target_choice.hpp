@@ -42,6 +42,8 @@ class TargetChoice {
   /// Correlation of the last chosen window's surroundings with the reference's; 0 if they do not fit.
   double ringThere() const { return ring_there_; }
 
+  /// Makes this line of the trace the target instead of the last chosen one, which is at the same place.
+  void chooseAgain(int target);
   /// Rejects the last chosen window, because its surroundings do not resemble the reference's at all.
   void takeBack();
 

@@ -38,13 +38,20 @@ struct WindowDetector::Impl {
   std::optional<WindowObservation> choose(const View& view) {
     done(timer, Stage::kReference);
     auto window = choice.choose(candidates, search.factor(), view);
+    are_recorded = true;
     done(timer, Stage::kBorders);
     return window;
+  }
+
+  // Candidates that are already in the trace must not be counted there again as proposals of the search.
+  void forgetProposals() {
+    for (ScoredCandidate& candidate : candidates) candidate.proposal = 0.0;
   }
 
   // Gathers candidates that are windows by their geometry, and those that may be.
   void gatherAll() {
     candidates = search.kept();
+    if (are_recorded) forgetProposals();
     const std::vector<ScoredCandidate> open = search.open();
     candidates.insert(candidates.end(), open.begin(), open.end());
   }
@@ -60,6 +67,7 @@ struct WindowDetector::Impl {
   std::optional<WindowObservation> judgeFrameAlone(const View& view) {
     candidates = found_first;
     candidates.insert(candidates.end(), search.kept().begin(), search.kept().end());
+    forgetProposals();
     if (!reference.judgeFrames(candidates)) return std::nullopt;
     for (ScoredCandidate& candidate : candidates)
       if (!candidate.located || !candidate.appearance) candidate.verdict = RejectReason::kDuplicate;
@@ -80,8 +88,13 @@ struct WindowDetector::Impl {
     const double agreement = window ? choice.ringThere() : 0.0;
     if (window && agreement == 0.0) choice.takeBack(), window.reset();
     const auto ask_surroundings = [&] {
+      const int chosen = trace.target;
       const auto other = judgeSurroundings(view);
-      if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
+      if (!other) return;
+      if (window && Sameness(window->corners).samePlace(other->corners))
+        choice.chooseAgain(chosen);
+      else
+        window = other;
     };
     if (agreement < kSureRing) gatherAll(), ask_surroundings();
     if (!window && !everywhere)
@@ -111,6 +124,7 @@ struct WindowDetector::Impl {
         });
     found_first = search.kept();
     search.runOnColours(has_decoy ? std::nullopt : reference.paint(), trace);
+    are_recorded = false;
   }
 
   std::optional<WindowObservation> detect(const View& view) {
@@ -122,6 +136,7 @@ struct WindowDetector::Impl {
       return std::nullopt;
     }
     search.run(view.image, view.camera, trace);
+    are_recorded = false;
     reference.see(view.image, view.camera);
     auto window = judge(view);
     if (!window) {
@@ -140,6 +155,7 @@ struct WindowDetector::Impl {
   TargetChoice choice;
   std::vector<ScoredCandidate> found_first, candidates;
   std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, computed on demand
+  bool are_recorded = false;                               ///< the search's candidates are in the trace
   StageTimer* timer = nullptr;
 };
 

@@ -74,7 +74,10 @@ void Referee::watchSides(const Sample& now) {
 void Referee::watchCrossing(const Sample& now) {
   if (!previous_) return;
   const Eigen::Vector3d a = previous_->position, b = now.position;
-  if (a.x() >= 0.0 && b.x() < 0.0) crossing_.reset();
+  if (a.x() >= 0.0 && b.x() < 0.0) {
+    crossing_.reset();
+    stood_behind_ = false;
+  }
   if (!(a.x() < 0.0 && b.x() >= 0.0)) return;
   const double part = -a.x() / (b.x() - a.x());
   const Eigen::Vector3d at = a + part * (b - a);

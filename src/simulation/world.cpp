@@ -27,7 +27,7 @@ Course courseOf(const Scenario& scenario, const Scene& scene) {
 
 WallInAir wallOf(const Scenario& scenario, const Scene& scene) {
   WallInAir wall;
-  wall.open = scene.opening.has_value();
+  wall.open = scenario.window.isOpen();
   wall.opening = scenario.opening();
   wall.front_x_m = scenario.window.wallFront();
   wall.back_x_m = scene.opening_depth_m;
@@ -152,13 +152,12 @@ void World::command(const VelocityCommand& command) {
   obey();
 }
 
-void World::inject(FaultParams fault) {
-  fault.at_sec = time_sec_;
+void World::inject(const FaultParams& fault) {
   if (external()) {
     const std::string why_not = whyNotBesideExternalVehicle(fault);
     if (!why_not.empty()) throw InputError("fault: " + why_not);
   }
-  faults_.inject(fault);
+  faults_.inject(fault, time_sec_);
 }
 
 std::optional<CameraFrame> World::takeFrame() {

@@ -80,7 +80,7 @@ class World {
   /// The fault that acts on this unit now, or null.
   const FaultParams* acting(const char* unit) const { return faults_.acting(unit, time_sec_); }
   /// Adds a fault that begins now. \throws InputError if the fault is impossible
-  void inject(FaultParams fault);
+  void inject(const FaultParams& fault);
 
   const geometry::PinholeCamera& camera() const { return model_; }
   Eigen::Isometry3d T_base_camera() const { return scenario_.camera.toldT_base_camera(); }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -68,6 +69,14 @@ inline void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) throw InputError(folder + ": cannot make this folder");
+}
+
+/// \throws InputError if two files have the same name without folder and ending, by which results are named
+inline void checkNamesDiffer(const std::vector<std::string>& files) {
+  std::set<std::string> names;
+  for (const std::string& file : files)
+    if (const auto name = std::filesystem::path(file).stem().string(); !names.insert(name).second)
+      throw InputError(file + ": another file is called " + name + ", too: its results would be replaced");
 }
 
 /// \throws InputError if one of the files exists, because it may still be needed

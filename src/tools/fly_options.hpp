@@ -77,11 +77,12 @@ inline OptionList describeFly(FlyOptions& o) {
 }
 
 inline std::vector<std::uint32_t> seedsOf(const FlyJob& job) {
-  std::vector<std::uint32_t> drawn;
-  for (const auto& [seed, quantiles] : job.draws) drawn.push_back(seed);
-  if (!drawn.empty()) return drawn;
   const FlyOptions& o = job.asked;
   auto seeds = evaluation::parseSeeds(o.seeds);
+  if (!o.draws.empty()) {
+    seeds.emplace();
+    for (const auto& [seed, quantiles] : job.draws) seeds->push_back(seed);
+  }
   if (!seeds) throw InputError("--seeds " + o.seeds + ": give A..B with A <= B, e.g. 1..20");
   if (o.shard.empty()) return *seeds;
   const auto shard = evaluation::shardOf(*seeds, o.shard);
@@ -150,7 +151,10 @@ inline FlyJob jobOf(const FlyOptions& o) {
     throw InputError(o.output +
                      " holds the flights of an earlier campaign: --resume goes on with it, --overwrite "
                      "replaces it, or give another folder");
-  if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
+  if (!o.draws.empty()) {
+    job.draws = evaluation::readDraws(o.draws);
+    if (job.draws.empty()) throw InputError("--draws " + o.draws + ": no flights in it");
+  }
   job.seeds = seedsOf(job);
   if (!o.params.empty()) job.params = {configuration::readOverlay(o.params)};
   const auto scenario = job.scenario(job.seeds.empty() ? 1U : job.seeds.front());  // a shard may be empty
@@ -165,6 +169,7 @@ inline FlyJob jobOf(const FlyOptions& o) {
   for (const auto seed : job.seeds) job.scenario(seed);
   if (o.check) return job;
   makeFolder(o.output);
+  if (o.overwrite) std::filesystem::remove_all(o.output + "/failures");
   if (!o.log.empty()) makeFolder(o.log);
   if (!o.keep_failures) return job;
   if (o.no_pictures) throw InputError("--keep-failures: there are no images to keep with --no-pictures");

@@ -24,7 +24,7 @@ struct ViewOptions {
 
 /// Image from the start or another viewpoint, looking at the window.
 inline cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, const ViewOptions& view) {
-  constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
+  constexpr double kSettling_sec = 0.4, kGivesUp_sec = 10.0;  // until the camera has seen the scene
   scenario.start.heading_rad = 0.0;
   if (view.distance_m > 0.0) {
     scenario.start.distance_m = view.distance_m;
@@ -35,6 +35,8 @@ inline cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, con
   cv::Mat image;
   while (image.empty() || world.timeSec() < kSettling_sec) {
     world.advance();
+    if (image.empty() && world.timeSec() > kGivesUp_sec)
+      throw InputError("the scenario's camera gives no image");
     if (const auto frame = world.takeFrame()) image = frame->image.clone();
   }
   return image;

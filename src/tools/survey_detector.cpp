@@ -151,6 +151,7 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
 void drawAndLook(const Options& o, Survey& survey) {
   evaluation::SurveyFolder folder(o.save);
   if (!o.save.empty()) tools::makeFolder(o.save);
+  tools::checkNamesDiffer(o.scenarios);
   tools::Progress progress("survey_detector", "images", o.scenarios.size() * o.frames);
   for (const std::string& file : o.scenarios)
     for (int i = 0; i < o.frames; ++i) {

@@ -34,10 +34,10 @@ tools::OptionList describe(Options& o) {
       "approach and\n"
       "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called "
       "open.");
-  add("open", o.open, "drawn approaches to open windows");
-  add("closed", o.closed, "drawn approaches to closed ones");
-  add("synthetic", o.synthetic, "approaches of each kind without images");
-  add("glass", o.glass, "approaches without images to panes of each of several reflectivities");
+  add("open", o.open, "drawn approaches to open windows", {0, 1e6});
+  add("closed", o.closed, "drawn approaches to closed ones", {0, 1e6});
+  add("synthetic", o.synthetic, "approaches of each kind without images", {0, 1e6});
+  add("glass", o.glass, "approaches without images to panes of each of several reflectivities", {0, 1e6});
   add("scenario", o.scenarios, "scenario files instead of random windows, --open approaches each");
   add("seed", o.seed, "seed of the first approach; each later one uses the next seed");
   add("params", o.params, tools::kParamsHelp);

@@ -134,6 +134,7 @@ class Flight {
 
 int run(const Options& o) {
   if (o.scenarios.empty()) throw InputError("--scenario is missing; see --help");
+  tools::checkNamesDiffer(o.scenarios);
   tools::makeFolder(o.output);
   std::cout << evaluation::TrackSummary::markdownHeader();
   tools::Progress progress("survey_tracker", "flights", o.scenarios.size() * o.flights);

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "window_ingress/geometry/finite_math.hpp"
@@ -27,6 +28,13 @@ struct PinholeCamera {
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
   std::array<double, 5> distortion{};  ///< in the model's order: k1, k2, p1, p2, k3, or k1, k2, k3, k4, 0
   LensModel model = LensModel::kPlumbBob;
+
+  bool operator==(const PinholeCamera& other) const {
+    const auto key = [](const PinholeCamera& c) {
+      return std::tie(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion, c.model);
+    };
+    return key(*this) == key(other);
+  }
 
   /// Ideal camera, square pixels, centred principal point, no distortion.
   static PinholeCamera fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad);

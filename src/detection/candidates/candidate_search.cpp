@@ -73,9 +73,9 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
                                                              DetectionTrace& trace) {
   const SegmentQuads::Result quads =
       segment_quads_.run(*segments_, params_.gates.min_area * level_.image.size().area(), effort);
-  trace.segments = static_cast<int>(segments_->size());
-  trace.contours = outlines_.contours;
-  trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
+  trace.segments += static_cast<int>(segments_->size());
+  trace.contours += outlines_.contours;
+  trace.budget_exceeded |= outlines_.budget_exceeded || quads.budget_exceeded;
   for (CandidateTrace rejected : outlines_.rejected) {
     rejected.quad = inFullImage(rejected.quad, level_.factor);
     trace.candidates.push_back(rejected);
@@ -146,7 +146,8 @@ void CandidateSearch::keepBest(DetectionTrace& trace) {
       kept_.push_back(candidate);
       continue;
     }
-    const RejectReason reason = is_known ? RejectReason::kDuplicate : RejectReason::kOutscored;
+    trace.budget_exceeded |= !is_known;
+    const RejectReason reason = is_known ? RejectReason::kDuplicate : RejectReason::kBudget;
     const double better_rank = is_known ? twin->rank() : kept_.back().rank();
     trace.candidates.push_back(traceOf(candidate, {reason, candidate.rank(), better_rank}));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <tuple>
 
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -83,10 +82,7 @@ void EdgeChains::emit(std::size_t first, std::size_t last) {
 }
 
 void EdgeChains::tabulate(const geometry::PinholeCamera& lens) {
-  const auto key = [](const geometry::PinholeCamera& c) {
-    return std::tie(c.model, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
-  };
-  if (tabulated_ && key(*tabulated_) == key(lens)) return;
+  if (tabulated_ && *tabulated_ == lens) return;
   tabulated_ = lens;
   undistorted_.create(lens.height, lens.width, CV_32FC2);
   for (int y = 0; y < lens.height; ++y)

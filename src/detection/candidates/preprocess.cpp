@@ -58,7 +58,8 @@ SearchLevel preprocess(const cv::Mat& image, const PreprocessParams& params, cv:
   }
   const double sigma_px = params.blur_sigma_px;
   if (sigma_px > 0.0)
-    cv::GaussianBlur(level.image, smooth, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
+    cv::GaussianBlur(level.image, smooth, cv::Size(), sigma_px, sigma_px,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   else
     level.image.copyTo(smooth);
   if (params.equalise) equalise(smooth);

@@ -66,6 +66,7 @@ void ReferenceJudge::see(const cv::Mat& image, const geometry::PinholeCamera* ca
 void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
   reference_ = std::move(reference);
   borders_ = {}, ring_ = {}, shape_ = {};
+  beyond_ = {}, open_borders_ = 0;
   frame_colours_.reset();
   is_grey_ = reference_ && isGrey(reference_->image());
   if (!reference_ || !reference_->openingIsKnown()) return;
@@ -242,7 +243,7 @@ int ReferenceJudge::openBorders(const geometry::Quadrilateral& corners) {
 }
 
 bool ReferenceJudge::frameGoesOn(const geometry::Quadrilateral& corners) {
-  if (frameless() || !compares_) return false;
+  if (!knowsBorders() || frameless() || !compares_) return false;
   const FrameEnds here = framesBeyond(bgr_, corners, camera_, sides_);
   for (int side = 0; side < 4; ++side)
     for (int end = 0; end < 2; ++end)

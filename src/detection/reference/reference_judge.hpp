@@ -107,7 +107,7 @@ class ReferenceJudge {
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
   std::optional<RingColours> frame_colours_;  ///< of the reference
-  int open_borders_ = 4;  ///< borders of the reference whose inside differs from the outside
+  int open_borders_ = 0;  ///< borders of the reference whose inside differs from the outside
   FrameEnds beyond_{};    ///< in the reference
   bool covered_ = false;
   bool is_grey_ = false;  ///< the reference is grey: only brightness counts

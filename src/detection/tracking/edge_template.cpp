@@ -8,9 +8,9 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kSegments = 6;          // of a side, each matched separately
-constexpr int kMaxReach = 64;         // [px]
 constexpr float kFaintPart = 0.35f;   // of the remembered energy: fainter patterns correlate less
 constexpr float kPreference = 0.15f;  // penalty in correlation at the ends of the reach
+constexpr int kMaxReach = EdgeTemplate::kMaxReach;
 constexpr int kMaxWidth = 2 * (EdgeTemplate::kMaxHalf + kMaxReach) + 5;
 
 /// Correlations of the segments of a side with a pattern, by shift.

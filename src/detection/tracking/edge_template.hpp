@@ -14,7 +14,8 @@ namespace window_ingress::detection {
 /// whole pattern distinguishes them, so that a track cannot slip from one to the other.
 class EdgeTemplate {
  public:
-  static constexpr int kMaxHalf = 24;  ///< furthest offset remembered [px]
+  static constexpr int kMaxHalf = 24;   ///< furthest offset remembered [px]
+  static constexpr int kMaxReach = 64;  ///< of a search [px]
 
   struct Match {
     OffsetLine line;          ///< to a pixel, in the profiles' axes

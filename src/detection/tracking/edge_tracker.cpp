@@ -97,7 +97,7 @@ FollowedBorder EdgeTracker::follow(const LensImage& view, const Stretch& predict
   border.sought = border.in_view && memory_.known();
   if (!border.sought) return border;
   const double pixel = pixelAcross(view.lens, stretch->from, stretch->to),
-               most = std::max(kMinReachPx, kReach * view.longerSide());
+               most = std::clamp(kReach * view.longerSide(), kMinReachPx, double(EdgeTemplate::kMaxReach));
   const int reach =
       static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px / pixel + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinFollowed, kProfiles);

@@ -20,12 +20,6 @@ inline bool isUsableImage(const cv::Mat& image) {
   return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3);
 }
 
-/// True for the same size, focal lengths, principal point and distortion.
-inline bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b) {
-  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
-         a.cy == b.cy && a.distortion == b.distortion && a.model == b.model;
-}
-
 /// A sequence of images from one camera: time and rotation between the last two.
 class ImageSequence {
  public:
@@ -92,7 +86,7 @@ class ImageSequence {
   bool isContinuedBy(const TrackInput& input) const {
     if (!last_sec_ || input.image.size() != size_ || (input.camera != nullptr) != camera_.has_value())
       return false;
-    if (input.camera && !isSameCalibration(*input.camera, *camera_)) return false;
+    if (input.camera && !(*input.camera == *camera_)) return false;
     const double elapsed = input.stamp_sec - *last_sec_;
     return elapsed > 0.0 && elapsed <= max_gap_sec_;
   }

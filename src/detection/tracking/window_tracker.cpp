@@ -59,9 +59,9 @@ struct WindowTracker::Impl {
     if (place_is_expected) heedExpected(input);
     if (has_motion) predict();
     const bool followed = tracking && follow(input);
+    if (followed) realign(input);
     done(detector.timer(), Stage::kTrack);
     if (followed) {
-      realign(input);
       has_own_trace = true;
       traceFollowed(window, own_trace);
       if (auto whole = complete(input)) return whole;
@@ -133,10 +133,12 @@ struct WindowTracker::Impl {
     window.edges = borders->edges;
   }
 
+  // At most one search an image.
   std::optional<WindowObservation> lookForWindow(const TrackInput& input) {
+    if (!was_searched) found_by_search = detector.detect(input.image, input.stamp_sec, input.camera);
     was_searched = true;
     searched_sec = input.stamp_sec;
-    return detector.detect(input.image, input.stamp_sec, input.camera);
+    return found_by_search;
   }
 
   // Tracks the window of the search.
@@ -148,7 +150,7 @@ struct WindowTracker::Impl {
     is_same ? reference.restart() : reference.start();
     motion.start(quad, kFoundSigmaPx);
     quad_tracker.learn(viewOf(input), quad, input.camera && reference.isKnown());
-    frames_to_alignment = 0;
+    frames_to_alignment = frames_elsewhere = 0;
     certainty = std::max(found.score, 2.0 * kMinCertainty);
     window = found;
     window.target_id = memory.id();
@@ -246,6 +248,7 @@ struct WindowTracker::Impl {
   DetectionTrace own_trace;  // if the search's trace does not tell what happened
   double certainty = 0.0;
   std::vector<SeenWindow> windows;
+  std::optional<WindowObservation> found_by_search;  // in the last image that was searched
   double searched_sec = 0.0;
   int frames_to_alignment = 0, frames_to_completion = 0, frames_elsewhere = 0;
   bool was_searched = false, place_is_expected = false;

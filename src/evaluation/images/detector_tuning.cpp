@@ -43,6 +43,7 @@ class Search {
     if (samples.empty() || fields_.empty())
       throw std::invalid_argument("nothing to tune, or nothing to tune on");
     best_ = countDetections(samples_, params_, reference_);
+    start_merit_ = best_.merit();
   }
 
   detection::DetectorParams run() {
@@ -92,7 +93,7 @@ class Search {
   }
 
   void takeBackWhatIsNotNeeded() {
-    const double enough = best_.merit() - kNotWorth;
+    const double enough = std::max(start_merit_, best_.merit() - kNotWorth);
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       const double tuned = fields_[i].get();
       if (tuned == start_[i]) continue;
@@ -107,6 +108,7 @@ class Search {
   detection::DetectorParams params_;
   std::vector<Field> fields_;  // refer to params_
   std::vector<double> start_;
+  double start_merit_ = 0.0;
   DetectionCounts best_;
   int trials_, done_ = 0;
   std::mt19937 random_;

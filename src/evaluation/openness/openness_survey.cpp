@@ -62,6 +62,7 @@ void OpennessTable::add(const OpennessResult& result) {
   row.closed += result.at_decision.openness == openness::Openness::kClosed;
   row.ever_open += result.ever_open;
   row.ever_closed += result.ever_closed;
+  false_open_ += result.ever_open && !result.is_open;
   if (result.ever_open) row.open_from_m.push_back(result.open_from_m);
   row.milliseconds.push_back(result.milliseconds);
 }
@@ -78,12 +79,6 @@ std::string OpennessTable::markdown() const {
                      row.open_from_m.empty() ? "" : formatted("%.2f", quantile(row.open_from_m, 0.5)).c_str(),
                      quantile(row.milliseconds, 0.5));
   return out;
-}
-
-int OpennessTable::falseOpen() const {
-  int count = 0;
-  for (const auto& [kind, row] : rows_) count += row.is_open ? 0 : row.ever_open;
-  return count;
 }
 
 std::string opennessColumns() {

@@ -1,5 +1,6 @@
 #include "evaluation/poses/pose_survey.hpp"
 
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -169,9 +170,9 @@ double ratio(const PoseCellResult& result, int method) {
 
 // Ours may exceed the best peer by the random difference of two equal methods.
 bool isBestOrEqual(const PoseCellResult& result) {
-  double best_peer = ratio(result, kFirstPeer);
-  for (int method = kFirstPeer + 1; method < kPoseMethods; ++method)
-    best_peer = std::min(best_peer, ratio(result, method));
+  double best_peer = std::numeric_limits<double>::infinity();
+  for (int method = kFirstPeer; method < kPoseMethods; ++method)
+    if (result.methods[method].count > 0) best_peer = std::min(best_peer, ratio(result, method));
   return ratio(result, kOurs) <= best_peer * 1.005;
 }
 

@@ -94,6 +94,7 @@ class ScenarioReader {
   }
 
   std::size_t drawOption(const std::string& name, std::size_t count) const {
+    if (count == 1) return 0;
     const double size = static_cast<double>(count);
     if (const auto quantile = quantileOf(path_ + name))
       return static_cast<std::size_t>(std::min(*quantile * size, size - 1.0));

@@ -24,11 +24,12 @@ bool actsAt(const FaultParams& fault, double now_sec) {
 
 }  // namespace
 
-void FaultPlan::inject(const FaultParams& fault) {
+void FaultPlan::inject(FaultParams fault, double now_sec) {
   auto wrong = parameters::outOfRange(fault);
   const std::string why_not = whyNoSuchFault(fault);
   if (wrong.empty() && !why_not.empty()) wrong.push_back(why_not);
   if (!wrong.empty()) throw InputError("fault: " + parameters::joined(wrong));
+  fault.at_sec = now_sec;
   faults_.push_back(fault);
 }
 

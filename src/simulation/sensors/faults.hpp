@@ -141,8 +141,8 @@ class FaultPlan {
  public:
   explicit FaultPlan(const std::vector<FaultParams>& faults) : faults_(faults.begin(), faults.end()) {}
 
-  /// \throws InputError if the fault is out of range or impossible
-  void inject(const FaultParams& fault);
+  /// Begins now, whatever its `at_sec`. \throws InputError if the fault is out of range or impossible
+  void inject(FaultParams fault, double now_sec);
 
   /// The fault acting on this unit at this time: the one that began last, or of several such the last in the
   /// list. Returns the same object while the fault acts.

@@ -50,7 +50,7 @@ TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
   EXPECT_NEAR(geometry::yawOf(target->T_odom_window.linear()), 0.3, 0.02);
   EXPECT_NEAR(target->stamp_sec, 29 / 30.0 - 0.05, 1e-9);
   EXPECT_DOUBLE_EQ(target->opening.width_m, 1.2);
-  EXPECT_GT(target->updates, 10);
+  EXPECT_GT(estimator.filtered(1.0)->updates, 10);
 }
 
 TEST(TargetEstimator, TheMountingIsUnverifiedUntilItWasWatchedOrIsSaidToBeSure) {
@@ -256,12 +256,12 @@ TEST(TargetEstimator, AnOdometrySampleThatComesLateChangesNothing) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double stamp : {0.98, 0.6, -infinity}) {
     auto estimator = hovering(1.0);
-    const int updates = estimator.target(1.0)->updates;
+    const int updates = estimator.filtered(1.0)->updates;
     estimator.addOdometry(stamp, vehicleAt(0.0));
     estimator.addOdometry(1.03, vehicleAt(0.0));
     estimator.addDetection(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
     ASSERT_TRUE(estimator.target(1.03)) << stamp;
-    EXPECT_EQ(estimator.target(1.03)->updates, updates + 1) << stamp;
+    EXPECT_EQ(estimator.filtered(1.03)->updates, updates + 1) << stamp;
   }
   auto estimator = hovering(3.0);
   estimator.addOdometry(1.0, vehicleAt(0.0));
