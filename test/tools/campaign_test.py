@@ -1,4 +1,5 @@
 """tools/campaign: shards flown by GNU parallel and merged give the same bytes as one process."""
+import csv
 import json
 import os
 import re
@@ -33,6 +34,20 @@ def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
 
 def fly(scenario, folder, *arguments):
     return run("fly", "--scenario", scenario, "--no-pictures", "--output", folder, *arguments)
+
+
+def test_shards_share_the_flights_of_a_draws_file(tmp_path):
+    scenario, draws = scenario_in(tmp_path), tmp_path / "draws.csv"
+    draws.write_text("seed\n" + "".join(f"{seed}\n" for seed in range(11, 15)))
+    flown = []
+    for shard in ("1/2", "2/2"):
+        folder = tmp_path / shard[0]
+        assert fly(scenario, folder, "--draws", draws, "--shard", shard).returncode == 0
+        flown += [row["seed"] for row in csv.DictReader((folder / "flights.csv").open())]
+    assert sorted(flown) == ["11", "12", "13", "14"]
+    draws.write_text("seed\n")
+    refused = fly(scenario, tmp_path / "none", "--draws", draws)
+    assert refused.returncode == 2 and "no flights in it" in refused.stderr, refused.stderr
 
 
 def test_the_summary_says_what_was_flown(tmp_path):

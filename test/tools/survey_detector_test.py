@@ -25,6 +25,15 @@ def test_same_arguments_same_rows_and_the_same_from_files(scenario, tmp_path):
     assert [row["seed"] for row in timeless(tmp_path / "a/frames.csv")] == ["1", "2", "3"]
 
 
+@pytest.mark.parametrize("tool, words", [("survey_detector", ["--frames", 1]), ("survey_tracker", ["--flights", 1])])
+def test_scenarios_of_one_name_are_refused_because_results_would_mix(tool, words, scenario, tmp_path):
+    (tmp_path / "other").mkdir()
+    other = tmp_path / "other/small.yaml"
+    other.write_text(SCENARIO)
+    done = run(tool, "--scenario", scenario, other, *words, "--output", tmp_path / "out")
+    assert done.returncode == 2 and f"{other}: another file is called small" in done.stderr, done.stderr
+
+
 def test_exact_distances_in_turn(scenario, tmp_path):
     done = run("survey_detector", "--scenario", scenario, "--frames", 3, "--at", "2,4,8", "--no-reference", "--static-camera",
                   "--antialiasing", "multisampling", "--output", tmp_path)

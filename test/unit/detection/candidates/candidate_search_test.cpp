@@ -46,7 +46,11 @@ TEST(CandidateSearch, BestFirstAndNoMoreThanAsked) {
   ASSERT_EQ(candidates.size(), 3u);
   EXPECT_GE(candidates[0].rank(), candidates[1].rank());
   EXPECT_GE(candidates[1].rank(), candidates[2].rank());
-  for (const CandidateTrace& candidate : trace.candidates) EXPECT_NE(candidate.reject, RejectReason::kNone);
+  EXPECT_TRUE(trace.budget_exceeded);
+  for (const CandidateTrace& candidate : trace.candidates) {  // nobody has compared those beyond the limit
+    EXPECT_NE(candidate.reject, RejectReason::kNone);
+    EXPECT_NE(candidate.reject, RejectReason::kOutscored);
+  }
 }
 
 TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {

@@ -83,6 +83,10 @@ TEST_F(ScenarioFile, AValueMayBeAskedForByItsPlaceInTheRange) {
                            loadScenario(file_, 7, {{"start/distance", 0.5}});
                          }),
                          "start/distance: has no range to draw from"));
+  EXPECT_TRUE(test::says(test::refusalOf([&] {
+                           loadScenario(file_, 7, {{"faults[0]/kind", 0.5}});
+                         }),
+                         "faults[0]/kind: has no range to draw from"));
 }
 
 TEST(Scenario, TheVehicleMayBeToldOfAnotherMounting) {

@@ -271,6 +271,14 @@ TEST(Faults, AreInjectedFromNowOn) {
   EXPECT_GT(after, 20);
 }
 
+TEST(Faults, AreInjectedHoweverLateItIs) {
+  constexpr double kLateSec = 5000.0;  // later than a scenario's faults may begin
+  FaultPlan plan({});
+  plan.inject(fault("odom", "off"), kLateSec);
+  EXPECT_EQ(plan.acting("odom", kLateSec - 0.1), nullptr);
+  EXPECT_NE(plan.acting("odom", kLateSec), nullptr);
+}
+
 TEST(Faults, WhatMakesNoSenseIsRefusedByName) {
   const auto error = [](const FaultParams& params, const char* profile = "default") {
     Scenario scenario = scenarioWith({params});
