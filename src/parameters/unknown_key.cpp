@@ -29,40 +29,6 @@ const std::pair<const char*, const char*> kMoved[] = {
     {"interior/most_px", "'max_side_px'"},
 };
 
-// Former parameters, now constants: groups and the names in them. Those of a node have an empty group.
-const std::pair<const char*, const char*> kConstants[] = {
-    {"lines", " max_gap vote_fraction "},
-    {"contours", " min_perimeter "},
-    {"gates", " min_solidity "},
-    {"shape", " sigmas frame_slack "},
-    {"appearance", " near_width far_width max_drift "},
-    {"track", " reach turn "},
-    {"interior",
-     " min_points least_slope margin min_contrast max_return_px most_slope flow_sigma_px max_growth "
-     "max_key_age_sec min_shared "},
-    {"pose",
-     " systematic_turn unknown_corner_sigma_px max_reprojection_rms_px min_side_px min_corner_angle_rad "
-     "min_range_m max_tilt_rad max_yaw_rad trusted_yaw_sigmas trusted_log_likelihood_ratio "},
-    {"filter",
-     " known_size_sigma scale_speed_mps unknown_corner_sigma_px systematic_renewal_m systematic_renewal_sec "
-     "attitude_bias_time_sec max_mean_squares outliers_until_restart max_evidence dead_weight "
-     "harmless_yaw_rad trusted_yaw_sigma_rad consistency_images max_consistency time_jump_sec "},
-    {"tracker", " frames max_pose_gap_sec max_jump_m max_turn_jump_rad "},
-    {"openness",
-     " border_sigma_px position_sigma_m min_baseline_m max_border_misfit max_sigmas max_unsteady min_points "
-     "max_log_odds min_open_share "},
-    {"facade",
-     " corner_sigma_px range_sigma wall_sigma_m max_deviation confirmations forget_sec settled_updates "
-     "next_release_sec click_m "},
-    {"input", " max_window_shift_m target_jump_persist_sec max_target_tilt_rad "},
-    {"search", " max_turn_per_image found_frames "},
-    {"align", " dwell_sec settle_sec probe_speed_mps "},
-    {"approach", " wind_sec gust_memory_sec gust_carry_sec leave_factor leave_sec "},
-    {"commit", " standing_mps max_heading_error_rad max_lateral_speed_mps max_update_jump_m "},
-    {"hold", " standing_mps settle_sec dwell_sec "},
-    {"", " start_time_sec clock_rate_hz "},
-};
-
 std::string groupOf(const std::string& path) {
   const auto slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash);
@@ -85,10 +51,6 @@ std::string whatBecameOf(const std::string& path) {
   for (const auto& [end, now] : kMoved)
     if (endsWith(path, end)) return std::string("; it is now ") + now;
   if (endsWith(path, "camera_pose")) return "; it is an argument of the launch files: camera_pose:=..";
-  for (const auto& [group, names] : kConstants)
-    if (std::string(names).find(" " + nameOf(path) + " ") != std::string::npos &&
-        (*group == '\0' || endsWith(groupOf(path), group)))
-      return "; it is now a constant: remove it";
   return "";
 }
 

@@ -98,7 +98,6 @@ class RefusedStartTest(unittest.TestCase):
         self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
         self.assert_refused("homography_pose", "tracker/fit", {"vehicle_width_m": 0.9}, "half_width_m")
         self.assert_refused("homography_pose", "filter/gate_squares", 30.0, "it is now 'nis_gate'")
-        self.assert_refused("world", "clock_rate_hz", 50.0, "it is now a constant")
         self.assert_refused("setpoint_guard", "max_sped_mps", 0.9, "did you mean 'max_speed_mps'?")
 
     def assert_stops(self, node, number, frame="odom"):

@@ -85,11 +85,7 @@ TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
       {"homography_pose: {stamps: {max_age_sec: 1.0}}", "; it is now 'vehicle: {stamps: {..}}'"},
       {"window_detector: {image_is_rectified: true}", "; it is now 'vehicle: {image_is_rectified: ..}'"},
       {"ingress_navigator: {odom_frame: map}", "; it is now 'vehicle: {odom_frame: ..}'"},
-      {"homography_pose: {filter: {gate_squares: 30}}", "gate_squares: unknown key; it is now 'nis_gate'"},
-      {"homography_pose: {tracker: {frames: {certain_sigmas: 3}}}",
-       "frames: unknown key; it is now a constant"},
-      {"window_detector: {interior: {least_slope: 3}}", "least_slope: unknown key; it is now a constant"},
-      {"world: {clock_rate_hz: 50}", "clock_rate_hz: unknown key; it is now a constant: remove it"}};
+      {"homography_pose: {filter: {gate_squares: 30}}", "gate_squares: unknown key; it is now 'nis_gate'"}};
   for (const auto& [yaml, text] : formers)
     EXPECT_TRUE(test::says(error(yaml + std::string("\n")), text)) << error(yaml + std::string("\n"));
   Overlay overlay;
