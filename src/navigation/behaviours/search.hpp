@@ -49,7 +49,7 @@ class Search : public Behaviour {
   }
 
  private:
-  static constexpr int kMaxOthers = 8;
+  static constexpr int kMaxOthers = 4;
   /// Beyond this correction of odometry the place is uncertain: eaves may be above.
   static constexpr double kMaxShiftToClimbM = 0.3;
 
