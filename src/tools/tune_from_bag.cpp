@@ -39,10 +39,10 @@ tools::OptionList describe(Job& job) {
       "Usage: tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
       "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H "
       "[OPTION...]\n"
-      "Tries detector settings on some of the images. Writes the changed keys if they are also better on the "
-      "held-out rest.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
+      "Tries detector settings on some of the images. If they are also better on the held-out rest, writes all "
+      "values that differ from the defaults.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
       "usage or unreadable input.");
-  add.required("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
+  add.required("output", job.output, "yaml file for them, to be given as config:= and --params");
   add("overwrite", job.overwrite, tools::kOverwriteHelp);
   add("labels", job.labels, "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)");
   add("images", job.images, "folder of the images that the csv names");

@@ -66,7 +66,7 @@ Reply NavigatorNode::abortMission(const std::string& why) {
   return reply;
 }
 
-// Another set of nodes may be started beside these, and ~abort no longer comes here. In the opening it flies
+// Another set of nodes may be started beside these, and ~abort no longer comes here. In COMMIT it flies
 // on.
 void NavigatorNode::abortIfForgotten() {
   if (!master_ || !master_->isForgotten() || whyFlying().empty()) return;

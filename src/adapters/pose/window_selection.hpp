@@ -78,7 +78,8 @@ class WindowSelection {
                                   ? Converted<Eigen::Isometry3d>{Eigen::Isometry3d::Identity(), ""}
                                   : mountingOf(tf_, odom_frame_, frame);
     if (!T_odom_frame)
-      last_click_ = T_odom_frame.reason;
+      last_click_ = "a point in '" + frame + "', which tf does not connect with " + odom_frame_ +
+                    ": choose rviz's fixed frame accordingly";
     else if (!point.allFinite())
       last_click_ = "the point is not finite";
     else

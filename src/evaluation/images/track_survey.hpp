@@ -37,7 +37,7 @@ struct TrackResult {
   int frame = 0;
   double plane_m = 0.0;  ///< distance of the camera from the plane of the opening
   double milliseconds = 0.0;
-  bool searched = false;  ///< found by a search, not by tracking
+  bool searched = false;  ///< no track before this image
   int sides_in_view = 0;
   SurveyTruth truth;
   std::optional<detection::WindowObservation> window;
