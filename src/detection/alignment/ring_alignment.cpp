@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace window_ingress::detection {
 namespace {
@@ -126,7 +127,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
-  residuals_.assign(view_.ring().x.size() * kRingChannels, 0.0F);
+  residuals_.assign(view_.ring().x.size() * kRingChannels, std::numeric_limits<float>::quiet_NaN());
   const double least = leaves_out_ ? kMinAlike * correlationOf(segments_).mean() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)
