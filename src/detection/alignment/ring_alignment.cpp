@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace window_ingress::detection {
 namespace {
@@ -127,7 +126,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
-  residuals_.assign(view_.ring().x.size() * kRingChannels, std::numeric_limits<float>::quiet_NaN());
+  residuals_.assign(view_.ring().x.size() * kRingChannels, 0.0F);
   const double least = leaves_out_ ? kMinAlike * correlationOf(segments_).mean() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)

@@ -263,7 +263,7 @@ float RingView::spreadOf(const std::vector<float>& residuals, float before) {
   std::size_t kept = 0;
   for (std::size_t i = 0, sample = 0; i < residuals.size(); i += 3, sample += 3) {
     if (sample >= weights_.size()) sample -= weights_.size();
-    scratch_[kept] = std::abs(residuals[i]), kept += weights_[sample] > 0.0F && residuals[i] == residuals[i];
+    scratch_[kept] = std::abs(residuals[i]), kept += weights_[sample] > 0.0F;
   }
   scratch_.resize(kept);
   if (scratch_.empty()) return before;

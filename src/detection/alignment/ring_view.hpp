@@ -88,7 +88,7 @@ class RingView {
   void leaveOver(const RingSegment& segment, std::vector<float>& residuals) const;
 
   /// Standard deviation of the residuals, from their median; `before` where nothing is visible.
-  /// \param residuals laid out as the ring's values; NaN: left out
+  /// \param residuals laid out as the ring's values
   float spreadOf(const std::vector<float>& residuals, float before);
 
  private:
