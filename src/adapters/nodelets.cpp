@@ -11,6 +11,7 @@
 
 #include "adapters/nodes.hpp"
 #include "adapters/runtime/console_decoupling.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
@@ -28,6 +29,9 @@ class NodeletOf : public nodelet::Nodelet {
     decoupleConsole();  // affects the whole manager: its console output no longer waits for a terminal
     try {
       ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
+      if (nh.getNamespace() != ros::names::parentNamespace(getName()))  // of / alone: roscpp cannot name it
+        throw InputError("its topics would be in " + nh.getNamespace() +
+                         ", the manager's namespace: take a manager in /, or start all nodes in a namespace");
       nh.setCallbackQueue(&queue_);
       pnh.setCallbackQueue(&queue_);
       node_ = make(nh, pnh);

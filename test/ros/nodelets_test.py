@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The nodelets work like the nodes, in one process, whose manager has another namespace. One can be unloaded and loaded again without harm to the others."""
+"""The nodelets work like the nodes, in one process. One can be unloaded and loaded again without harm to the others."""
 import os
 import subprocess
 import sys
@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from roslib.packages import find_node
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_srvs.srv import Trigger
@@ -45,15 +46,25 @@ class NodeletsTest(unittest.TestCase):
             self.assertIn(words, said)
 
     def test_3_one_of_them_is_taken_out_and_put_in_again(self):
-        subprocess.run([*NODELET, "unload", "/window_detector", "/camera/manager"], check=True, timeout=support.DEADLINE_S)
+        subprocess.run([*NODELET, "unload", "/window_detector", "/manager"], check=True, timeout=support.DEADLINE_S)
         support.wait_for(lambda: "window_detector says nothing" in start().message, "the navigator's word for it")
         self.assertNotIn("homography_pose says nothing", start().message)
         begin = time.monotonic()
-        loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/camera/manager",
+        loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/manager",
                                    "__name:=window_detector_again"])
         try:
             self.windows.wait(lambda w: w.detected, "a window after it", begin=begin)
             self.poses.wait(lambda p: p.image.reject == p.image.OK, "a pose after it", begin=begin)
+        finally:
+            loader.terminate()
+            loader.wait()
+
+    def test_4_a_manager_whose_namespace_its_topics_would_take_is_refused(self):
+        log = support.Listener("/rosout_agg", Log)
+        loader = subprocess.Popen([*NODELET, "load", "window_ingress/HomographyPoseNodelet", "/camera/manager", "__name:=pose_elsewhere"])
+        try:
+            said = log.wait(lambda line: line.level == Log.FATAL, "the refusal").msg
+            self.assertIn("/pose_elsewhere: not started: its topics would be in /camera", said)
         finally:
             loader.terminate()
             loader.wait()
