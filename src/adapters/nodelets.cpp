@@ -3,6 +3,7 @@
 // could call into a node during its construction or destruction.
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
+#include <ros/names.h>
 #include <ros/spinner.h>
 
 #include <exception>
