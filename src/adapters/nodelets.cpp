@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
+#include <string>
 
 #include "adapters/nodes.hpp"
 #include "adapters/runtime/console_decoupling.hpp"
@@ -30,8 +31,9 @@ class NodeletOf : public nodelet::Nodelet {
     decoupleConsole();  // affects the whole manager: its console output no longer waits for a terminal
     try {
       ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
-      if (nh.getNamespace() != ros::names::parentNamespace(getName()))  // of / alone: roscpp cannot name it
-        throw InputError("its topics would be in " + nh.getNamespace() +
+      const std::string space = nh.getNamespace();  // roscpp cannot name /: it is empty, or the manager's
+      if (!space.empty() && space != ros::names::parentNamespace(getName()))
+        throw InputError("its topics would be in " + space +
                          ", the manager's namespace: take a manager in /, or start all nodes in a namespace");
       nh.setCallbackQueue(&queue_);
       pnh.setCallbackQueue(&queue_);

@@ -60,7 +60,7 @@ class NodeletsTest(unittest.TestCase):
             loader.wait()
 
     def test_4_a_manager_whose_namespace_its_topics_would_take_is_refused(self):
-        log = support.Listener("/rosout_agg", Log)
+        log = support.Listener("/rosout", Log)
         loader = subprocess.Popen([*NODELET, "load", "window_ingress/HomographyPoseNodelet", "/camera/manager", "__name:=pose_elsewhere"])
         try:
             said = log.wait(lambda line: line.level == Log.FATAL, "the refusal").msg

@@ -17,7 +17,7 @@ class UpstreamFaults {
  public:
   /// \param nh in the namespace of the other nodes; that of a nodelet's process may be another
   UpstreamFaults(ros::NodeHandle& nh, Diagnostics& diagnostics)
-      : prefix_(nh.getNamespace() == "/" ? "" : nh.getNamespace().substr(1) + "/") {
+      : prefix_(nh.getNamespace().size() > 1 ? nh.getNamespace().substr(1) + "/" : "") {
     subscriber_ = diagnostics.subscribe(nh, "/diagnostics", 20, &UpstreamFaults::hear, this);
   }
 
