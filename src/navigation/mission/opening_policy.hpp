@@ -4,6 +4,8 @@
 #include <string>
 
 #include "navigation/mission/mission_state.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
 
 namespace window_ingress::navigation {
 

@@ -1,6 +1,9 @@
 #pragma once
 
 #include "navigation/mission/mission_state.hpp"
+#include "navigation/motion/input_monitor.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {
 
