@@ -267,7 +267,9 @@ TEST(OpeningPolicy, StandsStillWhileItAsksAboutOneThatIsSeenToBeOpen) {
 
 TEST(OpeningPolicy, WaitsForTheAnswerAsLongAsItSays) {
   NavigatorParams params;
-  params.commit.ask_sec = params.timeouts.approach_sec + 10.0;
+  params.timeouts.approach_sec = 12.0;
+  params.timeouts.total_sec = 40.0;
+  params.commit.ask_sec = 15.0;
   test::KinematicPlant plant{test::PlantParams()};
   Navigator navigator{params};
   double asked_sec = 0.0;
