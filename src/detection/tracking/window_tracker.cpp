@@ -133,7 +133,6 @@ struct WindowTracker::Impl {
     window.edges = borders->edges;
   }
 
-  // At most one search an image.
   std::optional<WindowObservation> lookForWindow(const TrackInput& input) {
     if (!was_searched) found_by_search = detector.detect(input.image, input.stamp_sec, input.camera);
     was_searched = true;
@@ -228,10 +227,9 @@ struct WindowTracker::Impl {
   }
 
   void survey(const TrackInput& input, const std::optional<WindowObservation>& target) {
-    const double since_sec = input.stamp_sec - searched_sec;
-    const bool is_due =
-        params.track.survey_sec > 0.0 && !(since_sec < params.track.survey_sec && since_sec >= 0.0);
-    if (tracking && !was_searched && is_due && quad_tracker.inView() == 4) lookForWindow(input);
+    const double since_sec = input.stamp_sec - searched_sec, every_sec = params.track.survey_sec;
+    const bool is_due = every_sec > 0.0 && !(since_sec >= 0.0 && since_sec < every_sec);
+    if (tracking && is_due && quad_tracker.inView() == 4) lookForWindow(input);
     static const DetectionTrace kNothing;
     windowsSeen(was_searched ? detector.trace() : kNothing, target, windows);
   }
@@ -246,10 +244,9 @@ struct WindowTracker::Impl {
   TrackRecheck recheck{params.track};
   WindowObservation window;  // as tracked last
   DetectionTrace own_trace;  // if the search's trace does not tell what happened
-  double certainty = 0.0;
+  double certainty = 0.0, searched_sec = 0.0;
   std::vector<SeenWindow> windows;
-  std::optional<WindowObservation> found_by_search;  // in the last image that was searched
-  double searched_sec = 0.0;
+  std::optional<WindowObservation> found_by_search;  // in the last image searched; one search an image
   int frames_to_alignment = 0, frames_to_completion = 0, frames_elsewhere = 0;
   bool was_searched = false, place_is_expected = false;
   bool tracking = false, has_motion = false, has_own_trace = false;
