@@ -397,11 +397,9 @@ TEST_F(NavigatorSteps, OdometryThatRepeatsItselfWhileTheVehicleIsToldToMoveIsStu
   for (int i = 0; i < 300; ++i) {
     auto input = inputAt(kFar, now_ += kStep);
     input.vehicle->T_odom_base = frozen->T_odom_base;
-    for (const double later_sec : {0.0, 0.5 * kStep}) {  // also between two messages
-      output = navigator.step(input, now_ + later_sec);
-      if (i > 20) {
-        EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0) << i;
-      }
+    output = navigator.step(input, now_);
+    if (i > 20) {
+      EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0) << i;
     }
   }
   EXPECT_EQ(output.state, State::kAborted);

@@ -54,6 +54,19 @@ TEST(InputMonitor, AgeCountsInBothDirections) {
   EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image in window_pose 2.41 s old");
 }
 
+TEST(InputMonitor, OdometryThatIsStuckIsSoBetweenItsMessagesToo) {
+  auto judge = monitor();
+  auto input = inputAt(kThere, 10.0);
+  input.vehicle->velocity_odom_mps.x() = 0.5;  // claims motion
+  for (int i = 0; i < 20; ++i) {
+    input.vehicle->stamp_sec = 10.0 + 0.033 * i;
+    for (const double later_sec : {0.0, 0.016}) {
+      const auto situation = judge.judge(input, input.vehicle->stamp_sec + later_sec);
+      EXPECT_EQ(situation.vehicle.has_value(), i < 8) << i << " " << later_sec;
+    }
+  }
+}
+
 TEST(InputMonitor, APositionThatMovesWithoutAVelocityIsNoOdometryToFlyBy) {
   auto judge = monitor();
   std::string fault;
